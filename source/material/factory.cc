@@ -2,7 +2,10 @@
 #include <mortise/base/numbers.h>
 #include <mortise/base/quotes.h>
 #include <mortise/material/factory.h>
+#include <mortise/material/neo_hookean.h>
 
+#include <algorithm>
+#include <cstring>
 #include <sstream>
 
 namespace mortise
@@ -27,26 +30,210 @@ namespace mortise
       return stream.str();
     }
 
+    constexpr const char *modulus_words = "a positive number (force per area) ";
+
+    bool
+    is_modulus(const double value)
+    {
+      return value >= smallest_modulus && value <= largest_modulus;
+    }
+
+    void
+    check_poisson_ratio(const MaterialParameters &given,
+                        const bool                may_be_incompressible,
+                        const Where              &where)
+    {
+      const double nu = given.poisson_ratio;
+      if (!(nu > -1. && (may_be_incompressible ? nu <= 0.5 : nu < 0.5)))
+        fail(
+          where("Poisson ratio"),
+          text(nu),
+          may_be_incompressible ?
+            "a number above -1 and not above 0.5 (at 0.5 a body is incompressible)" :
+            "a number above -1 and below 0.5");
+    }
+
+    /// Hooke's law of small strains from Young modulus and Poisson ratio.
+    LinearElastic
+    hooke(const MaterialParameters &given,
+          const bool                mixed,
+          const bool                may_be_incompressible,
+          const Where              &where)
+    {
+      if (!given.young_modulus)
+        fail(where("Young modulus"),
+             "nothing with Law = " + given.law,
+             modulus_words + allowed_moduli());
+      if (!is_modulus(*given.young_modulus))
+        fail(where("Young modulus"),
+             text(*given.young_modulus),
+             modulus_words + allowed_moduli());
+      check_poisson_ratio(given, may_be_incompressible, where);
+      return {*given.young_modulus, given.poisson_ratio, mixed};
+    }
+
+    double
+    compressibility(const LinearElastic &law)
+    {
+      return law.mixed ? law.compressibility() : 0.;
+    }
+
     Material
     make_linear_elastic(const MaterialParameters &given,
                         const bool                mixed,
                         const Where              &where)
     {
-      if (!given.young_modulus)
-        fail(where("Young modulus"),
-             "nothing with Law = linear elastic",
-             "a positive number (force per area) " + allowed_moduli());
-      const double E = *given.young_modulus, nu = given.poisson_ratio;
-      if (!(E >= smallest_modulus && E <= largest_modulus))
-        fail(where("Young modulus"),
-             text(E),
-             "a positive number (force per area) " + allowed_moduli());
-      if (!(nu > -1. && nu <= 0.5))
-        fail(
-          where("Poisson ratio"),
-          text(nu),
-          "a number above -1 and not above 0.5 (at 0.5 a body is incompressible)");
-      return LinearElastic{E, nu, mixed};
+      const LinearElastic law = hooke(given, mixed, true, where);
+      if (!is_finite(given))
+        return law;
+      return {law,
+              std::make_shared<Hencky>(law.displacement_lambda(),
+                                       law.lame_mu(),
+                                       compressibility(law))};
+    }
+
+    Material
+    make_neo_hookean(const MaterialParameters &given,
+                     const bool                mixed,
+                     const Where              &where)
+    {
+      const LinearElastic law = hooke(given, mixed, true, where);
+      return {law,
+              std::make_shared<NeoHookean>(law.displacement_lambda(),
+                                           law.lame_mu(),
+                                           compressibility(law))};
+    }
+
+    Material
+    make_st_venant_kirchhoff(const MaterialParameters &given,
+                             const bool,
+                             const Where &where)
+    {
+      const LinearElastic law = hooke(given, false, false, where);
+      return {law,
+              std::make_shared<StVenantKirchhoff>(law.lame_lambda(),
+                                                  law.lame_mu())};
+    }
+
+    /// Of the isochoric stretches.
+    Material
+    make_ogden(const MaterialParameters       &given,
+               const std::vector<Ogden::Term> &terms,
+               const bool                      mixed)
+    {
+      const double        nu = given.poisson_ratio;
+      const LinearElastic law{2. * (1. + nu) * Ogden::shear_modulus(terms),
+                              nu,
+                              mixed};
+      return {law, std::make_shared<Ogden>(law, terms)};
+    }
+
+    Material
+    make_mooney_rivlin(const MaterialParameters &given,
+                       const bool                mixed,
+                       const Where              &where)
+    {
+      if (!(given.c10 >= 0.))
+        fail(where("C10"), text(given.c10), "0 or a positive number");
+      if (!(given.c01 >= 0.))
+        fail(where("C01"), text(given.c01), "0 or a positive number");
+      if (!is_modulus(given.c10 + given.c01))
+        fail(where("C10"),
+             "C10 + C01 = " + text(given.c10 + given.c01),
+             modulus_words + allowed_moduli());
+      check_poisson_ratio(given, true, where);
+      return make_ogden(given,
+                        {{2. * given.c10, 2.}, {-2. * given.c01, -2.}},
+                        mixed);
+    }
+
+    Material
+    make_ogden_of_terms(const MaterialParameters &given,
+                        const bool                mixed,
+                        const Where              &where)
+    {
+      const std::string allowed =
+        "\"mu_1, alpha_1; mu_2, alpha_2; ...\" with mu_p alpha_p > 0, half the sum of which is the shear modulus";
+      if (given.ogden_terms.empty())
+        fail(where("Ogden terms"), "nothing with Law = Ogden", allowed);
+      for (const Ogden::Term &term : given.ogden_terms)
+        if (!(term.modulus * term.exponent > 0.) ||
+            !is_modulus(term.modulus * term.exponent))
+          fail(where("Ogden terms"),
+               text(term.modulus) + ", " + text(term.exponent),
+               allowed);
+      check_poisson_ratio(given, true, where);
+      return make_ogden(given, given.ogden_terms, mixed);
+    }
+
+    void
+    check_hardening(const Hardening &given, const Where &where)
+    {
+      const auto not_negative = [&](const char *name, const double value) {
+        if (!(value >= 0. && value <= largest_modulus))
+          fail(where(name),
+               text(value),
+               "0 or a positive number: softening is not supported");
+      };
+      not_negative("Hardening modulus", given.modulus);
+      not_negative("Kinematic hardening modulus", given.kinematic_modulus);
+      not_negative("Saturation exponent", given.saturation_exponent);
+      if (given.table.empty())
+        {
+          if (!is_modulus(given.yield_stress))
+            fail(where("Yield stress"),
+                 given.yield_stress == 0. ? "nothing with Law = J2 plasticity" :
+                                            text(given.yield_stress),
+                 modulus_words + allowed_moduli());
+          if (given.saturation_stress != 0. &&
+              !(given.saturation_stress >= given.yield_stress))
+            fail(where("Saturation stress"),
+                 text(given.saturation_stress),
+                 "at least the Yield stress, " + text(given.yield_stress) +
+                   ": softening is not supported");
+          if ((given.saturation_stress > 0.) !=
+              (given.saturation_exponent > 0.))
+            fail(where(given.saturation_stress > 0. ? "Saturation exponent" :
+                                                      "Saturation stress"),
+                 "nothing beside the other one",
+                 "a positive number, or neither");
+          return;
+        }
+      const std::string allowed =
+        "\"plastic strain, yield stress; ...\", strains ascending from 0, stresses positive and not descending";
+      if (given.yield_stress != 0. || given.modulus != 0. ||
+          given.saturation_stress != 0.)
+        fail(where("Hardening table"),
+             "one beside Yield stress, Hardening modulus or Saturation stress",
+             "one of both");
+      double strain = 0., stress = smallest_modulus;
+      for (unsigned int i = 0; i < given.table.size(); ++i)
+        {
+          const auto &[alpha, sigma] = given.table[i];
+          if (!(i == 0 ? alpha == 0. : alpha > strain) || !(sigma >= stress))
+            fail(where("Hardening table"),
+                 "\"" + text(alpha) + ", " + text(sigma) + "\"",
+                 allowed);
+          strain = alpha;
+          stress = sigma;
+        }
+    }
+
+    Material
+    make_plasticity(const MaterialParameters &given,
+                    const bool                mixed,
+                    const Where              &where)
+    {
+      const LinearElastic law = hooke(given, mixed, true, where);
+      check_hardening(given.hardening, where);
+      const Plasticity plasticity(law.displacement_lambda() +
+                                    2. / 3. * law.lame_mu(),
+                                  law.lame_mu(),
+                                  given.hardening,
+                                  compressibility(law));
+      if (is_finite(given))
+        return {law, std::make_shared<FinitePlasticity>(plasticity)};
+      return {law, std::make_shared<Plasticity>(plasticity)};
     }
 
     Material
@@ -59,7 +246,7 @@ namespace mortise
       return given.orthotropic;
     }
 
-    /// Which constants are not at their defaults.
+    /// A constant of laws, and whether it is not at its default.
     struct Constant
     {
       const char *name;
@@ -67,33 +254,138 @@ namespace mortise
     };
 
     std::vector<Constant>
-    linear_elastic_constants(const MaterialParameters &given)
+    all_constants(const MaterialParameters &given)
     {
       const MaterialParameters none;
+      const Orthotropic &law = given.orthotropic, &no_law = none.orthotropic;
+      const Hardening   &hardening = given.hardening;
       return {{"Young modulus", given.young_modulus.has_value()},
-              {"Poisson ratio", given.poisson_ratio != none.poisson_ratio}};
-    }
-
-    std::vector<Constant>
-    orthotropic_constants(const MaterialParameters &given)
-    {
-      const Orthotropic &law = given.orthotropic, none;
-      return {{"Young moduli", law.young_moduli != none.young_moduli},
-              {"Poisson ratios", law.poisson_ratios != none.poisson_ratios},
-              {"Shear moduli", law.shear_moduli != none.shear_moduli},
-              {"Axes", law.axes != none.axes}};
+              {"Poisson ratio", given.poisson_ratio != none.poisson_ratio},
+              {"C10", given.c10 != 0.},
+              {"C01", given.c01 != 0.},
+              {"Ogden terms", !given.ogden_terms.empty()},
+              {"Yield stress", hardening.yield_stress != 0.},
+              {"Hardening modulus", hardening.modulus != 0.},
+              {"Saturation stress", hardening.saturation_stress != 0.},
+              {"Saturation exponent", hardening.saturation_exponent != 0.},
+              {"Kinematic hardening modulus",
+               hardening.kinematic_modulus != 0.},
+              {"Hardening table", !hardening.table.empty()},
+              {"Young moduli", law.young_moduli != no_law.young_moduli},
+              {"Poisson ratios", law.poisson_ratios != no_law.poisson_ratios},
+              {"Shear moduli", law.shear_moduli != no_law.shear_moduli},
+              {"Axes", law.axes != no_law.axes}};
     }
 
     struct Entry
     {
       const char *name;
       Material (*make)(const MaterialParameters &, bool mixed, const Where &);
-      std::vector<Constant> (*constants)(const MaterialParameters &);
+      bool                      may_be_small, may_be_finite, may_be_mixed;
+      std::vector<const char *> constants;
+
+      bool
+      takes(const char *constant) const
+      {
+        return std::any_of(constants.begin(),
+                           constants.end(),
+                           [&](const char *own) {
+                             return std::strcmp(own, constant) == 0;
+                           });
+      }
     };
 
     const std::vector<Entry> laws = {
-      {"linear elastic", make_linear_elastic, linear_elastic_constants},
-      {"orthotropic", make_orthotropic, orthotropic_constants}};
+      {"linear elastic",
+       make_linear_elastic,
+       true,
+       true,
+       true,
+       {"Young modulus", "Poisson ratio"}},
+      {"orthotropic",
+       make_orthotropic,
+       true,
+       false,
+       false,
+       {"Young moduli", "Poisson ratios", "Shear moduli", "Axes"}},
+      {"neo-Hookean",
+       make_neo_hookean,
+       false,
+       true,
+       true,
+       {"Young modulus", "Poisson ratio"}},
+      {"Mooney-Rivlin",
+       make_mooney_rivlin,
+       false,
+       true,
+       true,
+       {"C10", "C01", "Poisson ratio"}},
+      {"Ogden",
+       make_ogden_of_terms,
+       false,
+       true,
+       true,
+       {"Ogden terms", "Poisson ratio"}},
+      {"St. Venant-Kirchhoff",
+       make_st_venant_kirchhoff,
+       false,
+       true,
+       false,
+       {"Young modulus", "Poisson ratio"}},
+      {"J2 plasticity",
+       make_plasticity,
+       true,
+       true,
+       true,
+       {"Young modulus",
+        "Poisson ratio",
+        "Yield stress",
+        "Hardening modulus",
+        "Saturation stress",
+        "Saturation exponent",
+        "Kinematic hardening modulus",
+        "Hardening table"}}};
+
+    const Entry *
+    find(const std::string &name)
+    {
+      for (const Entry &law : laws)
+        if (name == law.name)
+          return &law;
+      return nullptr;
+    }
+
+    void
+    check_constants(const MaterialParameters &given,
+                    const Entry              &chosen,
+                    const Where              &where)
+    {
+      for (const Constant &constant : all_constants(given))
+        if (constant.given && !chosen.takes(constant.name))
+          {
+            std::vector<std::string> owners;
+            for (const Entry &law : laws)
+              if (law.takes(constant.name))
+                owners.push_back(law.name);
+            throw InputError(
+              where(constant.name) +
+              ": belongs to Law = " + join_names(owners) +
+              ", but the body has Law = " + given.law + "; allowed with it: " +
+              join_names(std::vector<std::string>(chosen.constants.begin(),
+                                                  chosen.constants.end())));
+          }
+    }
+
+    void
+    check_strain(const MaterialParameters &given,
+                 const Entry              &chosen,
+                 const Where              &where)
+    {
+      if (given.strain == StrainMeasure::small && !chosen.may_be_small)
+        fail(where("Strain"), "small with Law = " + given.law, "finite");
+      if (given.strain == StrainMeasure::finite && !chosen.may_be_finite)
+        fail(where("Strain"), "finite with Law = " + given.law, "small");
+    }
   } // namespace
 
   std::vector<std::string>
@@ -105,32 +397,42 @@ namespace mortise
     return names;
   }
 
+  bool
+  has_mixed_form(const std::string &law)
+  {
+    const Entry *entry = find(law);
+    return entry != nullptr && entry->may_be_mixed;
+  }
+
+  bool
+  is_finite(const MaterialParameters &parameters)
+  {
+    const Entry *entry = find(parameters.law);
+    return parameters.strain == StrainMeasure::finite ||
+           (parameters.strain == StrainMeasure::automatic && entry != nullptr &&
+            !entry->may_be_small);
+  }
+
+  bool
+  is_linear(const MaterialParameters &parameters)
+  {
+    return (parameters.law == "linear elastic" ||
+            parameters.law == "orthotropic") &&
+           !is_finite(parameters);
+  }
+
   Material
   make_material(const MaterialParameters &parameters,
                 const bool                mixed,
                 const Where              &where)
   {
-    const Entry *chosen = nullptr;
-    for (const Entry &law : laws)
-      if (parameters.law == law.name)
-        chosen = &law;
+    const Entry *chosen = find(parameters.law);
     if (chosen == nullptr)
       fail(where("Law"),
            in_quotes(parameters.law),
            "one of: " + join_names(law_names()));
-    for (const Entry &other : laws)
-      if (&other != chosen)
-        for (const Constant &constant : other.constants(parameters))
-          if (constant.given)
-            {
-              std::vector<std::string> own;
-              for (const Constant &any : chosen->constants(parameters))
-                own.push_back(any.name);
-              throw InputError(where(constant.name) +
-                               ": belongs to Law = " + other.name +
-                               ", but the body has Law = " + parameters.law +
-                               "; allowed with it: " + join_names(own));
-            }
+    check_constants(parameters, *chosen, where);
+    check_strain(parameters, *chosen, where);
     if (!(parameters.density == 0. || (parameters.density >= smallest_number &&
                                        parameters.density <= largest_number)))
       fail(where("Density"),

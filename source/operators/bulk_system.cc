@@ -3,6 +3,7 @@
 #include <mortise/operators/block_system.h>
 #include <mortise/operators/bulk_system.h>
 #include <mortise/operators/cells/cell_order.h>
+#include <mortise/operators/follower_pressures.h>
 
 #include <algorithm>
 
@@ -75,6 +76,8 @@ namespace mortise
     stiffness = std::make_unique<LevelOperator<double>>(all_levels.front(),
                                                         false,
                                                         nodes.get());
+    if (is_nonlinear())
+      linearise_undeformed();
     stiffness->diagonal(stiffness_diagonal);
     if (!pressures)
       return;
@@ -85,6 +88,8 @@ namespace mortise
     dirichlet_cell_pressures.add_diagonal(norm_diagonal.begin());
     pressures->gather_diagonal(norm_diagonal);
   }
+
+  BulkSystem::~BulkSystem() = default;
 
   void
   BulkSystem::couple(const std::vector<Coupling> &couplings)
@@ -120,7 +125,12 @@ namespace mortise
                          const Vector &p) const
   {
     if (!pressures)
-      return stiffness->vmult_free(dst_u, u);
+      {
+        stiffness->vmult_free(dst_u, u);
+        if (follower)
+          add_follower_product_free(dst_u, u);
+        return;
+      }
     stiffness->complete(u);
     pressures->complete(p);
     dst_u = 0.;
@@ -133,6 +143,8 @@ namespace mortise
     pressures->release(p);
     stiffness->gather(dst_u);
     pressures->gather(dst_p);
+    if (follower)
+      add_follower_product_free(dst_u, u);
   }
 
   void
@@ -209,15 +221,6 @@ namespace mortise
           }
       });
     return values;
-  }
-
-  Vector
-  BulkSystem::internal_forces(const Vector &u, const Vector &p) const
-  {
-    const Vector values(u); // those of hanging nodes are not kept
-    Vector       forces(u), unused(p);
-    apply_free(forces, unused, values, p);
-    return forces;
   }
 
   void

@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/material/nonlinear_law.h>
 #include <mortise/output/checkpoint.h>
 #include <mortise/output/checkpoint_scene.h>
 
@@ -17,7 +18,8 @@ namespace mortise
 
   namespace
   {
-    const char *const of_scene = "scene", *const of_faces = "multipliers";
+    const char *const of_scene = "scene", *const of_faces = "multipliers",
+                      *const of_points = "histories";
 
     /// A section for each field of the bodies.
     struct FieldKind
@@ -32,7 +34,8 @@ namespace mortise
     /// Of a cell with one bit for each of its dofs, by bytes, and the values of
     /// those whose bit is set: a value is in the record of the first cell, by
     /// number, that has its dof, so that it is there once, whatever the ranks.
-    /// Of a slave face with its coefficients.
+    /// Of a slave face with its coefficients, or of a cell with what its points
+    /// remember.
     struct Record
     {
       std::uint32_t       part = 0; ///< number of the body or interface
@@ -228,6 +231,73 @@ namespace mortise
       return problem;
     }
 
+    bool
+    remembers(const Body &body)
+    {
+      const auto &law = body.material.nonlinear();
+      return law && law->n_history() > 0;
+    }
+
+    void
+    append_histories(const Body         &body,
+                     const BodySolution &solution,
+                     std::string        &records)
+    {
+      for (const auto &[number, cell] : cells_by_number(body))
+        if (cell->is_locally_owned())
+          records += to_bytes(
+            to_bytes(Record{body.index,
+                            0,
+                            number,
+                            {},
+                            solution.history[cell->active_cell_index()]}));
+    }
+
+    /// Likewise.
+    std::string
+    read_histories(const CheckpointFile      &file,
+                   const std::uint64_t        block,
+                   const Bodies              &bodies,
+                   std::vector<BodySolution> &solutions)
+    {
+      std::map<unsigned int, CellsByNumber> cells; // by body
+      for (const auto &body : bodies)
+        if (remembers(*body))
+          {
+            cells[body->index] = cells_by_number(*body);
+            solutions[body->index].history.resize(
+              body->triangulation().n_active_cells());
+          }
+      if (cells.empty())
+        return "";
+      std::string problem =
+        read_records(file, of_points, block, [&](const Record &record) {
+          const auto of_body = cells.find(record.part);
+          if (of_body == cells.end())
+            return unknown;
+          const auto  found = of_body->second.find(record.cell);
+          const auto &body  = *bodies[record.part];
+          if (found == of_body->second.end())
+            return std::string();
+          const auto &cell = found->second;
+          if (record.values.size() !=
+              body.material.nonlinear()->n_history() *
+                points_of_forces(body, cell->active_fe_index()).size())
+            return "body " + in_quotes(body.name) +
+                   " remembers other numbers than now";
+          solutions[record.part].history[cell->active_cell_index()] =
+            record.values;
+          return std::string();
+        });
+      for (const auto &[b, of_body] : cells)
+        for (const auto &[number, cell] : of_body)
+          if (problem.empty() && cell->is_locally_owned() &&
+              solutions[b].history[cell->active_cell_index()].empty())
+            problem = "body " + in_quotes(bodies[b]->name) +
+                      " has no histories for some of its cells";
+      return problem;
+    }
+
     /// Likewise.
     std::string
     read_faces(const CheckpointFile                          &file,
@@ -295,6 +365,11 @@ namespace mortise
         if (std::string &bytes = records[kind.section];
             !kind.is_pressure || body->pressure)
           append_cells(*body, values.solutions[body->index], kind, bytes);
+    for (const auto &body : bodies)
+      if (remembers(*body))
+        append_histories(*body,
+                         values.solutions[body->index],
+                         records[of_points]);
     std::string &of_multipliers = records[of_faces];
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
@@ -348,6 +423,7 @@ namespace mortise
     result.solutions.resize(bodies.size());
     for (const FieldKind &kind : field_kinds)
       fail_if(read_cells(file, kind, block, bodies, result.solutions));
+    fail_if(read_histories(file, block, bodies, result.solutions));
     fail_if(read_faces(file, block, couplings, result.multipliers));
     for (BodySolution &solution : result.solutions)
       for (BodyVector *values : {&solution.displacement, &solution.pressure})

@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/of_all_ranks.h>
+#include <mortise/material/nonlinear_law.h>
 #include <mortise/operators/cells/cell_fields.h>
 #include <mortise/output/extremes.h>
 #include <mortise/output/fields.h>
@@ -78,21 +79,24 @@ namespace mortise
     /// At one point, the largest one of a cell, and so on.
     struct Sizes
     {
-      double displacement = 0., von_mises = 0.;
+      double displacement = 0., von_mises = 0., plastic_strain = 0.;
 
       void
       add(const Sizes &other)
       {
         // what is no number is found in the sums of other results
-        displacement = std::max(displacement, other.displacement);
-        von_mises    = std::max(von_mises, other.von_mises);
+        displacement   = std::max(displacement, other.displacement);
+        von_mises      = std::max(von_mises, other.von_mises);
+        plastic_strain = std::max(plastic_strain, other.plastic_strain);
       }
     };
 
     Sizes
     sizes_at(const CellFields &fields, const unsigned int q)
     {
-      return {fields.values[q].norm(), von_mises(fields.stress(q))};
+      return {fields.values[q].norm(),
+              von_mises(fields.stress(q)),
+              fields.plastic_strain(q)};
     }
 
     /// The node that a cell has at a place, by its stress.
@@ -140,15 +144,18 @@ namespace mortise
         });
         largest.displacement = Utilities::MPI::max(largest.displacement, comm);
         largest.von_mises    = Utilities::MPI::max(largest.von_mises, comm);
-        const auto is_peak   = [](const double value, const double most) {
+        largest.plastic_strain =
+          Utilities::MPI::max(largest.plastic_strain, comm);
+        const auto is_peak = [](const double value, const double most) {
           return value >= (1. - same_peak) * most;
         };
-        FirstPlace displacement, von_mises;
+        FirstPlace displacement, von_mises, plastic_strain;
         auto       of_cell = of_cells.cbegin();
         for_each_cell([&](const auto &cell) {
           const Sizes &most = *of_cell++;
           if (!is_peak(most.displacement, largest.displacement) &&
-              !is_peak(most.von_mises, largest.von_mises))
+              !is_peak(most.von_mises, largest.von_mises) &&
+              !is_peak(most.plastic_strain, largest.plastic_strain))
             return;
           fields.reinit(cell, solution);
           for (unsigned int q = 0; q < fields.points.size(); ++q)
@@ -158,14 +165,21 @@ namespace mortise
                 displacement.add(fields.points[q]);
               if (is_peak(sizes.von_mises, largest.von_mises))
                 von_mises.add(fields.points[q]);
+              if (is_peak(sizes.plastic_strain, largest.plastic_strain))
+                plastic_strain.add(fields.points[q]);
             }
         });
         Extremes result;
         result.displacement.value = largest.displacement;
         result.von_mises.value    = largest.von_mises;
         result.displacement.at    = coordinates(displacement.over_ranks(comm));
-        const Point<dim> peak     = von_mises.over_ranks(comm);
-        result.von_mises.at       = coordinates(peak);
+        if (body.material.nonlinear() &&
+            body.material.nonlinear()->plastic_strain())
+          result.plastic_strain = {largest.plastic_strain,
+                                   coordinates(
+                                     plastic_strain.over_ranks(comm))};
+        const Point<dim> peak = von_mises.over_ranks(comm);
+        result.von_mises.at   = coordinates(peak);
         compare_cells(peak, result.von_mises);
         return result;
       }

@@ -67,6 +67,10 @@ namespace mortise
         }
       if (selection.pressure)
         fields.push_back({"pressure", 1, {}});
+      if (selection.plastic_strain)
+        fields.push_back({"plastic_strain", 1, {}});
+      if (selection.deformation_gradient)
+        fields.push_back({"deformation_gradient", dim * dim, {}});
       return fields;
     }
 
@@ -87,9 +91,9 @@ namespace mortise
             put(fields.values[q][c]);
           ++field;
         }
-      if (!selection.stress && !selection.pressure)
-        return;
-      const SymmetricTensor<2, dim> stress = fields.stress(q);
+      SymmetricTensor<2, dim> stress;
+      if (selection.stress || selection.pressure)
+        stress = fields.stress(q);
       if (selection.stress)
         {
           for (unsigned int i = 0; i < dim; ++i)
@@ -100,7 +104,19 @@ namespace mortise
           ++field;
         }
       if (selection.pressure)
-        put(-trace(stress) / dim);
+        {
+          put(-trace(stress) / dim);
+          ++field;
+        }
+      if (selection.plastic_strain)
+        {
+          put(fields.plastic_strain(q));
+          ++field;
+        }
+      if (selection.deformation_gradient)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            put(fields.gradients[q][i][j] + (i == j ? 1. : 0.));
     }
   } // namespace
 

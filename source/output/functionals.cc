@@ -190,7 +190,7 @@ namespace mortise
         {
           const Tensor<1, dim> force =
             face.geometry.weights[q] *
-            (face.fields.stress(q) * face.geometry.normals[q]);
+            (face.fields.respond(q).nominal * face.geometry.normals[q]);
           for (unsigned int k = 0; k < forces.size(); ++k)
             {
               const auto [c, i] = fe.system_to_component_index(k);

@@ -54,7 +54,7 @@ namespace mortise
     MORTISE_MEMBERS(StressPeakSummary, value, at, averaged, jump)
     MORTISE_MEMBERS(BodySummary, name, shape, cells, degree_min, degree_max,
                     dofs, material, volume, mass, displacement_max,
-                    von_mises_max)
+                    von_mises_max, plastic_strain_max)
     MORTISE_MEMBERS(DofSummary, displacement, pressure, multiplier, total)
     MORTISE_MEMBERS(FrictionSummary, stick, slip, force, slip_max,
                     dissipated_energy)
@@ -64,7 +64,8 @@ namespace mortise
     MORTISE_MEMBERS(PreloadSummary, force, shortening)
     MORTISE_MEMBERS(EquilibriumSummary, applied, reactions, sum)
     MORTISE_MEMBERS(SolverSummary, method, preconditioner, iterations,
-                    relative_residual, active_sets, linear_iterations)
+                    relative_residual, active_sets, newton_iterations,
+                    linear_iterations)
     MORTISE_MEMBERS(ErrorSummary, displacement_l2, energy, multiplier_l2,
                     displacement_h1, pressure_l2)
     MORTISE_MEMBERS(AdaptivitySummary, quantity, value, target, estimate,

@@ -1,6 +1,7 @@
 #include <mortise/problem/load_steps.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace mortise
@@ -10,7 +11,10 @@ namespace mortise
     , output_every(parameters.output_every)
     , smallest_fraction(parameters.smallest_step)
     , divisible(divisible)
-    , length(std::numeric_limits<double>::infinity())
+    , largest(divisible && parameters.largest_step ?
+                *parameters.largest_step :
+                std::numeric_limits<double>::infinity())
+    , length(largest)
   {}
 
   double
@@ -18,9 +22,11 @@ namespace mortise
   {
     // a rest that rounding leaves is no step of its own
     constexpr double rounding = 1e-9;
-    const double     planned  = times[n_planned];
-    return reached + length < planned - rounding * length ? reached + length :
-                                                            planned;
+    const double     rest     = times[n_planned] - reached;
+    if (!(length < (1. - rounding) * rest))
+      return times[n_planned];
+    // steps up to the planned time have one length
+    return reached + rest / std::ceil(rest / length - rounding);
   }
 
   void
@@ -31,7 +37,7 @@ namespace mortise
     n_planned += at_planned;
     ++n_accepted;
     if (easy)
-      length *= 2.;
+      length = std::min(2. * length, largest);
   }
 
   bool

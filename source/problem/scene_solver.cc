@@ -19,9 +19,10 @@ namespace mortise
       options.tolerance      = given.tolerance;
       options.max_iterations = given.max_iterations;
       options.max_gathered   = given.max_gathered;
-      // steps of contact know themselves where to start
+      // steps of contact and Newton's method know themselves where to start
       if (run.parameters.steps.given() && !has_cycles &&
-          !discretisation.interfaces().have_contact())
+          !discretisation.interfaces().have_contact() &&
+          !discretisation.linear_system().bulk->is_nonlinear())
         options.successive = 4;
       if (given.print_iterations)
         options.monitor = [&log = run.log](const unsigned int iteration,
@@ -48,26 +49,33 @@ namespace mortise
     if (discretisation.interfaces().have_contact())
       contact = std::make_unique<ContactStep>(
         run, discretisation, *linear_solver, preloads, last.contact);
+    if (discretisation.linear_system().bulk->is_nonlinear())
+      nonlinear =
+        std::make_unique<NonlinearStep>(run, discretisation, *linear_solver);
     // a factorisation gives one of many answers and does not tell
     if (discretisation.choice().method == SolverMethod::direct)
       discretisation.check_multipliers();
   }
 
-  SystemVector
-  SceneSolver::resume(const SceneData &data, const SceneValues &values)
+  void
+  SceneSolver::resume(const SceneData   &data,
+                      const SceneValues &values,
+                      State             &state)
   {
-    SceneLoad    load     = discretisation.load(data);
-    SystemVector solution = discretisation.system_vector(values, load);
+    SceneLoad load = discretisation.load(data);
+    state.solution = discretisation.system_vector(values, load);
+    if (nonlinear)
+      return nonlinear->resume(load, values, state);
     preloads.begin(data, load);
     if (contact)
-      contact->resume(load, solution);
+      contact->resume(load, state.solution);
     else
-      linear_solver->remember(load.rhs, solution);
-    return solution;
+      linear_solver->remember(load.rhs, state.solution);
   }
 
   SolvedState
   SceneSolver::solve(const SceneData                 &data,
+                     const State                     &last,
                      const std::vector<BodySolution> &start,
                      SceneLoad                       &load)
   {
@@ -75,7 +83,9 @@ namespace mortise
     State       &next   = result.state;
     SolveReport &report = result.report;
     preloads.begin(data, load);
-    if (contact)
+    if (nonlinear)
+      report = nonlinear->solve(load, last, next);
+    else if (contact)
       report = contact->solve(data, load, next.solution);
     else if (start.empty())
       report = preloads.solve(false, load, next.solution);
@@ -125,11 +135,18 @@ namespace mortise
                       report.iterations,
                       report.relative_residual,
                       {},
+                      {},
                       {}};
     if (contact)
       {
         summary.solver->active_sets       = contact->n_sets();
         summary.solver->linear_iterations = contact->linear_iterations();
+      }
+    if (nonlinear)
+      {
+        summary.solver->newton_iterations = nonlinear->report().iterations;
+        summary.solver->linear_iterations =
+          nonlinear->report().linear_iterations;
       }
     for (unsigned int j = 0; j < preloads.interfaces().size(); ++j)
       summary.interfaces[preloads.interfaces()[j]].preload = {

@@ -30,11 +30,16 @@ namespace mortise
     is_nonlinear(const Parameters &parameters)
     {
       return parameters.steps.given() && !parameters.adaptivity.target_error &&
-             std::any_of(parameters.interfaces.begin(),
-                         parameters.interfaces.end(),
-                         [](const InterfaceParameters &interface) {
-                           return is_one_sided(interface.law);
-                         });
+             (std::any_of(parameters.interfaces.begin(),
+                          parameters.interfaces.end(),
+                          [](const InterfaceParameters &interface) {
+                            return is_one_sided(interface.law);
+                          }) ||
+              std::any_of(parameters.bodies.begin(),
+                          parameters.bodies.end(),
+                          [](const BodyParameters &body) {
+                            return !is_linear(body.material);
+                          }));
     }
 
     /// Are all displacements of @p step rounding beside the bodies?
@@ -55,7 +60,7 @@ namespace mortise
   Simulation::Simulation(const Parameters &given,
                          RunLog           &log,
                          const MPI_Comm    comm)
-    : parameters(with_tolerance(given))
+    : parameters(with_ramp(with_tolerance(given)))
     , context{parameters, log, timers, comm}
     , steps(parameters.steps, is_nonlinear(parameters))
     , output(context)
@@ -150,7 +155,7 @@ namespace mortise
     do
       {
         if (load)
-          context.log.line("  not converged: half the step");
+          context.log.line("  not converged" + because() + ": half the step");
         if (!adaptivity)
           announce_step();
         data.emplace(context.parameters, steps.next(), field_checks);
@@ -158,11 +163,15 @@ namespace mortise
         field_checks.throw_if_any(context.comm);
         check_loads(load->rhs);
         next = equations->solve(*data,
+                                state,
                                 adaptivity ? adaptivity->start(bodies) : none,
                                 *load);
       }
     while (!next.report.converged && steps.halve());
-    report     = std::move(next.report);
+    report = std::move(next.report);
+    if (!report.converged && !equations->nonlinear_reason().empty() &&
+        !summary.steps.empty())
+      return write_reached(writes);
     state      = std::move(next.state);
     state.time = steps.next();
     const StepEvaluation evaluation(context,
@@ -170,6 +179,7 @@ namespace mortise
                                     {*data,
                                      *load,
                                      state.solution,
+                                     state.history,
                                      equations->solved_contact(),
                                      state.shortenings});
     {
@@ -184,6 +194,34 @@ namespace mortise
       write_results(evaluation);
     if (context.parameters.steps.given() && is_last_cycle())
       output.print_progress(steps);
+  }
+
+  std::string
+  Simulation::because() const
+  {
+    const std::string reason = equations->nonlinear_reason();
+    return reason.empty() ?
+             "" :
+             " from t = " + RunLog::number(steps.time()) + " to " +
+               RunLog::number(steps.next()) + " (" + reason + ")";
+  }
+
+  void
+  Simulation::write_reached(const bool writes)
+  {
+    if (!writes || steps.output_due())
+      return;
+    const SceneData      data(context.parameters, state.time, field_checks);
+    const SceneLoad      load = equations->discretisation.load(data);
+    const StepEvaluation evaluation(context,
+                                    equations->discretisation,
+                                    {data,
+                                     load,
+                                     state.solution,
+                                     state.history,
+                                     equations->solved_contact(),
+                                     state.shortenings});
+    output.write_fields(steps, evaluation, NumbersByCell());
   }
 
   void
@@ -262,6 +300,12 @@ namespace mortise
                       "The run was stopped at t = " +
                         RunLog::number(steps.time()) + "; ") +
         interruption::what_is_complete());
+    if (!report.converged && !equations->nonlinear_reason().empty())
+      throw ConvergenceError(
+        "Newton's method did not converge" + because() +
+        ". The results up to t = " + RunLog::number(steps.time()) +
+        " are written. Take smaller steps (Steps/Step, Steps/Smallest step), or a "
+        "smaller load: beyond a largest one there may be no equilibrium");
     if (!report.converged)
       throw ConvergenceError(
         not_converged(report,
@@ -294,7 +338,7 @@ namespace mortise
       parameters.assignments,
       steps.longest(),
       steps.n_done(),
-      {steps.time(), {}, state.contact, state.shortenings},
+      {steps.time(), {}, {}, {}, state.contact, state.shortenings},
       adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
         to_bytes(adaptivity->checkpoint()) :
         std::string(),

@@ -74,7 +74,7 @@ namespace mortise
                    file.damaged("it has values that are not finite").what(),
                  context.comm);
     const SceneData data(context.parameters, state.time, field_checks);
-    state.solution = equations->resume(data, values);
+    equations->resume(data, values, state);
     if (adaptivity)
       adaptivity->restore(bodies, values.solutions);
     context.log.line(adaptivity ?

@@ -1,5 +1,7 @@
 #include <mortise/solvers/newton.h>
 
+#include <algorithm>
+
 namespace mortise
 {
   namespace
@@ -8,18 +10,20 @@ namespace mortise
     /// updated. Returns how often it was halved, more than @p max_halvings if nothing helps; then x is
     /// the start.
     unsigned int
-    search(NonlinearProblem   &problem,
-           const unsigned int  max_halvings,
-           const SystemVector &start,
-           SystemVector       &x,
-           double             &before)
+    search(NonlinearProblem    &problem,
+           const NewtonOptions &options,
+           const SystemVector  &start,
+           SystemVector        &x,
+           double              &before)
     {
-      constexpr double decrease = 1e-4;
-      double           length   = 1.;
+      const unsigned int max_halvings = options.max_halvings;
+      constexpr double   decrease     = 1e-4;
+      double             length       = 1.;
       for (unsigned int halvings = 0; halvings <= max_halvings; ++halvings)
         {
           const double reached = problem.residual(x);
-          if (reached <= (1. - decrease * length) * before)
+          if (reached <= (1. - decrease * length) * before ||
+              reached <= options.accepted)
             {
               before = reached;
               return halvings;
@@ -42,8 +46,10 @@ namespace mortise
     constexpr unsigned int easy_iterations = 5;
     const bool             searches        = options.max_halvings > 0;
     NewtonReport           report;
-    report.residual = problem.residual(x);
-    report.easy     = true;
+    report.residual    = problem.residual(x);
+    report.easy        = true;
+    double       best  = report.residual;
+    unsigned int rises = 0;
     // not a number is not converged
     while (!(report.residual <= options.tolerance) &&
            report.iterations < options.max_iterations)
@@ -63,8 +69,7 @@ namespace mortise
           }
         unsigned int halvings = 0;
         if (searches)
-          halvings =
-            search(problem, options.max_halvings, start, x, report.residual);
+          halvings = search(problem, options, start, x, report.residual);
         else
           report.residual = problem.residual(x);
         if (halvings > options.max_halvings)
@@ -73,6 +78,10 @@ namespace mortise
         report.easy &= halvings == 0;
         if (options.monitor)
           options.monitor(report.iterations, report.residual);
+        rises = report.residual < best ? 0 : rises + 1;
+        best  = std::min(best, report.residual);
+        if (rises >= options.patience)
+          break;
       }
     report.converged = report.residual <= options.tolerance;
     report.easy &= report.converged && report.iterations <= easy_iterations;

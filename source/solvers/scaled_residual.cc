@@ -141,14 +141,13 @@ namespace mortise
                          const std::function<double()> &relative_error,
                          SolveReport                   &report) const
   {
-    // a step of rounding for each of the terms of a row
-    constexpr double rounding = 1e-14, largest_error = 1e-6;
+    constexpr double largest_error = 1e-6;
     const double     rhs_norm = norm(solved.rhs), reached = norm(solved.r);
     report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
     report.converged         = reached <= tolerance * rhs_norm;
     if (report.converged || !std::isfinite(reached))
       return;
-    const double least = rounding * magnitude(solved.rhs, solved.x);
+    const double least = attainable(solved.rhs, solved.x);
     report.attainable  = least / rhs_norm;
     report.converged   = reached <= least && relative_error() <= largest_error;
   }

@@ -7,6 +7,7 @@
 // product; histories belong to their points. The same on every number of ranks.
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <mortise/material/nonlinear_law.h>
 #include <mortise/operators/matrix_free/matrix_free_elasticity.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@ namespace mortise::testing
 {
   using namespace dealii;
 
-  using Law = NonlinearLaw<double>;
+  using Law = NonlinearLaw;
   using V   = Law::V;
 
   /// One of the laws that kernels are compiled for.
@@ -28,10 +29,10 @@ namespace mortise::testing
       : law(material.displacement_law())
     {}
 
-    unsigned int
-    n_history() const override
+    TangentForm
+    form() const override
     {
-      return 0;
+      return TangentForm::full;
     }
 
     void
@@ -65,6 +66,12 @@ namespace mortise::testing
     explicit CubicLaw(const double beta)
       : beta(beta)
     {}
+
+    TangentForm
+    form() const override
+    {
+      return TangentForm::full;
+    }
 
     unsigned int
     n_history() const override
@@ -157,9 +164,9 @@ namespace mortise::testing
     }
 
     MatrixFreeElasticity<double>
-    stiffness(const std::shared_ptr<const Law> &law = nullptr) const
+    stiffness() const
     {
-      return {*space, *layout, nullptr, [&](const Body &) { return law; }};
+      return {*space, *layout};
     }
 
     Field
@@ -182,7 +189,7 @@ namespace mortise::testing
   };
 
   using Operator = MatrixFreeElasticity<double>;
-  using History  = PointHistory<double>;
+  using History  = PointHistory;
 
   template <typename Add>
   Field
@@ -220,7 +227,10 @@ namespace mortise::testing
   {
     History after = before;
     Field   force = sum_of(scene, [&](double *dst) {
-      K.add_residual(u.begin(), before, after, dst);
+      K.add_residual({const_cast<double *>(u.begin()), nullptr},
+                     before,
+                     after,
+                       {dst, nullptr});
     });
     return {force, after};
   }
@@ -240,11 +250,15 @@ namespace mortise::testing
                const Material    &material)
   {
     const Scene    scene(kind, p, material);
+    const Scene    same(kind,
+                     p,
+                     Material(LinearElastic(),
+                              std::make_shared<LinearLaw>(material)));
     const Field    u      = scene.random_field(1);
     const Operator linear = scene.stiffness();
-    Operator       K = scene.stiffness(std::make_shared<LinearLaw>(material));
-    const History  none = K.no_history();
-    K.linearise(u.begin(), none);
+    Operator       K      = same.stiffness();
+    const History  none   = K.no_history();
+    K.linearise({const_cast<double *>(u.begin()), nullptr}, none);
     const Field expected = product(scene, linear, u);
     verdict(name + ", force",
             difference(respond(scene, K, u, none).force, expected),
@@ -311,13 +325,16 @@ namespace mortise::testing
               const std::string &kind,
               const unsigned int p)
   {
-    const Scene scene(kind, p, LinearElastic());
+    const auto law = [](const double beta) {
+      return Material(LinearElastic(), std::make_shared<CubicLaw>(beta));
+    };
+    const Scene scene(kind, p, law(2.)), other(kind, p, law(3.));
     const Field u = scene.random_field(1), v = scene.random_field(2),
                 w = scene.random_field(3);
-    Operator K    = scene.stiffness(std::make_shared<CubicLaw>(2.));
+    Operator K    = scene.stiffness();
     // the strains of another field, at the same points
     const History before = respond(scene, K, v, K.no_history()).after;
-    K.linearise(u.begin(), before);
+    K.linearise({const_cast<double *>(u.begin()), nullptr}, before);
     const Field of_w = product(scene, K, w), of_v = product(scene, K, v);
     verdict(name + ", tangent by differences",
             difference(derivative(scene, K, u, w, before), of_w),
@@ -345,7 +362,7 @@ namespace mortise::testing
             Utilities::MPI::max(worst, MPI_COMM_WORLD),
             1e-11);
     // hardening by the strain of the same points adds to beta
-    const Operator more = scene.stiffness(std::make_shared<CubicLaw>(3.));
+    const Operator more = other.stiffness();
     const History  own  = respond(scene, K, u, K.no_history()).after;
     verdict(name + ", history",
             difference(respond(scene, K, u, own).force,

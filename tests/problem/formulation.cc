@@ -119,7 +119,9 @@ main()
   check("a law that does not exist",
         "0.3",
         {outer + "Law=orthotropc"},
-        {outer + "Law (--set", "orthotropc", "linear elastic, orthotropic"});
+        {outer + "Law (--set",
+         "orthotropc",
+         "linear elastic, orthotropic, neo-Hookean"});
   check("orthotropic without constants",
         "0.3",
         {outer + "Law=orthotropic", outer + "Young modulus="},
@@ -128,7 +130,7 @@ main()
         "0.3",
         with({outer + "Young modulus=3"}),
         {outer + "Young modulus (--set",
-         "belongs to Law = linear elastic",
+         "belongs to Law = linear elastic, neo-Hookean",
          "Law = orthotropic",
          "Young moduli, Poisson ratios, Shear moduli, Axes"});
   check("orthotropic constants without the law",
@@ -150,7 +152,7 @@ main()
         with({"Body outer/Formulation=mixed"}),
         {"Body outer/Formulation (--set",
          "\"mixed\" with Law = orthotropic",
-         "Law = linear elastic alone"});
+         "the law has no mixed form"});
   const Settings stiff = with({outer + "Young moduli=1, 1, 1",
                                outer + "Poisson ratios=0.495, 0.495, 0.495"});
   check("another law nearly incompressible",
@@ -159,7 +161,7 @@ main()
         {"Body outer/Formulation",
          "nearly incompressible",
          "Poisson ratio 0.49",
-         "Law = linear elastic alone"});
+         "the law has no mixed form"});
   Settings locking = stiff;
   locking.push_back("Body outer/Formulation=displacement");
   check("the same in displacement form", "0.3", locking, {"(no error)"});

@@ -67,7 +67,7 @@ namespace
     {
       data.push_back(std::make_unique<SceneData>(parameters, time, checks));
       load               = solver.discretisation.load(*data.back());
-      SolvedState solved = solver.solve(*data.back(), {}, load);
+      SolvedState solved = solver.solve(*data.back(), {}, {}, load);
       converged          = converged && solved.report.converged;
       solution           = solved.state.solution;
       return results();

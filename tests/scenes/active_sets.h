@@ -58,7 +58,7 @@ namespace mortise::testing
     SolvedStep
     solved(const SystemVector &x) const
     {
-      return {data, load, x, {}, {}};
+      return {data, load, x, history, {}, {}};
     }
 
   private:
@@ -70,6 +70,7 @@ namespace mortise::testing
     }
 
     const Parameters   parameters;
+    const PointHistory history; // there is none
     std::ostringstream silence;
     RunLog             log;
     Timers             timers;

@@ -29,6 +29,15 @@ namespace mortise
       traction;
   };
 
+  /// A pressure that acts on the deformed boundary.
+  struct PressureCondition
+  {
+    dealii::types::boundary_id boundary;
+    /// Force per deformed area at a point of the undeformed boundary, positive
+    /// when pressing.
+    std::function<double(const dealii::Point<dim> &)> pressure;
+  };
+
   /// Constrain the displacements of @p body on its Dirichlet boundaries. The values are interpolated
   /// by projections: at vertices, then in L2 on edges, then on faces, up to the
   /// degree that conformity leaves (Demkowicz, projection-based interpolation).

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <mortise/material/material.h>
+#include <mortise/material/plasticity.h>
+#include <mortise/material/principal_laws.h>
 
 #include <functional>
 #include <optional>
@@ -10,13 +12,24 @@
 
 namespace mortise
 {
+  enum class StrainMeasure
+  {
+    automatic, ///< finite for hyperelastic laws, else small
+    small,
+    finite
+  };
+
   /// A law and the constants of all laws, of which it takes its own.
   struct MaterialParameters
   {
-    std::string           law = "linear elastic";
+    std::string           law    = "linear elastic";
+    StrainMeasure         strain = StrainMeasure::automatic;
     std::optional<double> young_modulus; ///< force per area; none stands for it
     double                poisson_ratio = 0.3; ///< -1 < nu <= 0.5
-    Orthotropic           orthotropic;
+    double                c10 = 0., c01 = 0.;  ///< force per area
+    std::vector<Ogden::Term> ogden_terms;
+    Hardening                hardening;
+    Orthotropic              orthotropic;
     double density = 0.; ///< of any law, mass per volume; 0: none
     /// Of any law, strain per temperature, the same in all directions.
     double thermal_expansion = 0.;
@@ -25,6 +38,18 @@ namespace mortise
   /// Names of the laws.
   std::vector<std::string>
   law_names();
+
+  /// Has the law a mixed form?
+  bool
+  has_mixed_form(const std::string &law);
+
+  /// Does the law take finite strains?
+  bool
+  is_finite(const MaterialParameters &parameters);
+
+  /// Is the stress linear in the gradient of the displacement?
+  bool
+  is_linear(const MaterialParameters &parameters);
 
   /// Throws InputError for a law that does not exist, listing those that do,
   /// for constants with which it is none, and for those of another law that are

@@ -4,13 +4,24 @@
 
 #include <mortise/material/orthotropic.h>
 
+#include <memory>
+
 namespace mortise
 {
+  class NonlinearLaw;
+
   class Material
   {
   public:
     Material(const LinearElastic &law = LinearElastic())
       : law(law)
+    {}
+
+    /// A law that is @p tangent at small strains.
+    Material(const LinearElastic                &tangent,
+             std::shared_ptr<const NonlinearLaw> law)
+      : law(tangent)
+      , nonlinear_law(std::move(law))
     {}
 
     Material(const Orthotropic &law)
@@ -63,6 +74,28 @@ namespace mortise
     dealii::Tensor<1, 3>
     body_force(
       const std::array<dealii::SymmetricTensor<2, 3>, 3> &hessian) const;
+
+    /// What a law makes of a deformation at one point.
+    struct Response
+    {
+      dealii::SymmetricTensor<2, 3> cauchy;  ///< per deformed area
+      dealii::Tensor<2, 3>          nominal; ///< P, per undeformed area
+    };
+
+    /// Of any law in any form; @p pressure is zero if not mixed, @p history what
+    /// the point remembers, n_history() numbers of nonlinear(), or null if
+    /// these are none.
+    Response
+    respond(const dealii::Tensor<2, 3> &gradient,
+            double                      pressure,
+            const double               *history = nullptr) const;
+
+    /// Null if the law is linear; all else is of its tangent at small strains.
+    const std::shared_ptr<const NonlinearLaw> &
+    nonlinear() const
+    {
+      return nonlinear_law;
+    }
 
     /// Null if the law has directions.
     const LinearElastic *
@@ -132,5 +165,6 @@ namespace mortise
 
   private:
     std::variant<LinearElastic, Orthotropic> law;
+    std::shared_ptr<const NonlinearLaw>      nonlinear_law;
   };
 } // namespace mortise

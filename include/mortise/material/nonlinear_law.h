@@ -1,43 +1,72 @@
-// Laws whose stress is not linear in the gradient of the displacement, at one
-// point of as many cells as the processor computes together. The linear laws of
-// law.h are compiled into the kernels; these are asked once per iterate, and
-// kernels keep their tangents.
-//
-// Plasticity at small strain derives from this class as it is. Finite strain
-// needs besides the metric of the deformed cells and the stress in the tangent,
-// six numbers a point; isotropic tangents and those with a term of rank one
-// need fewer moduli than the 21 that are kept here.
+// Laws whose stress is not linear in the gradient of the displacement, for
+// several points at once. They know no mesh and no form of equations: kernels
+// bring gradients to points and take stresses and tangents from there.
 #pragma once
 
-#include <mortise/base/batch.h>
+#include <mortise/base/batch_math.h>
+#include <mortise/material/tangent_form.h>
+
+#include <optional>
 
 namespace mortise
 {
-  template <typename Number>
   class NonlinearLaw
   {
   public:
-    using V                                = typename Batch<Number>::Vector;
-    static constexpr unsigned int n_moduli = 21;
+    using V = DoubleBatch;
+
+    /// @p compressibility: of the pressure in mixed form, see
+    /// LinearElastic::compressibility().
+    explicit NonlinearLaw(const double compressibility = 0.)
+      : compressibility(compressibility)
+    {}
 
     virtual ~NonlinearLaw() = default;
 
+    virtual TangentForm
+    form() const = 0;
+
     /// Numbers that a point remembers, zero at first.
     virtual unsigned int
-    n_history() const = 0;
+    n_history() const
+    {
+      return 0;
+    }
 
-    /// The symmetric stress s that belongs to h[i][j] = du_i/dx_j after
-    /// @p before, the history up to the last accepted step; @p after: the
-    /// history up to here.
+    /// Number of the equivalent plastic strain among these, if there is one.
+    virtual std::optional<unsigned int>
+    plastic_strain() const
+    {
+      return {};
+    }
+
+    /// Of h[i][j] = du_i/dX_j after @p before, the history up to the last
+    /// accepted step: at small strain the stress, at finite strain the
+    /// Kirchhoff
+    /// stress tau = P F^T, symmetric, force per area; @p after: the history up
+    /// to here. Not a number where the law has no stress.
     virtual void
     stress(const V (&h)[3][3],
            const V *before,
            V       *after,
-           V (&s)[3][3]) const = 0;
+           V (&tau)[3][3]) const = 0;
 
-    /// The derivative of the stress there: the upper triangle of
-    /// AnisotropicLaw::C, row by row.
+    /// The moduli there, as many as n_moduli() of form(): at small strain of
+    /// d stress = C d strain, at finite strain of the spatial tangent c in
+    /// d(tau F^{-T}) = (grad du tau + c : sym grad du) F^{-T}.
     virtual void
     tangent(const V (&h)[3][3], const V *before, V *moduli) const = 0;
+
+    /// In mixed form, where the stress above lacks -p I with an unknown p: the
+    /// dilatation that belongs to @p p, tr e or ln J, and its derivative.
+    virtual void
+    dilatation_of_pressure(const V &p, V &value, V &slope) const
+    {
+      value = -compressibility * p;
+      slope = V{} - compressibility;
+    }
+
+  private:
+    const double compressibility;
   };
 } // namespace mortise

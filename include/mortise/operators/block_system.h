@@ -113,8 +113,15 @@ namespace mortise
       return directions ? directions->compliance : spring_compliance;
     }
 
+    /// Is the system symmetric, and K positive definite as far as is known?
     bool
-    is_symmetric() const
+    suits_conjugate_gradients() const
+    {
+      return has_symmetric_coupling() && bulk->may_be_positive();
+    }
+
+    bool
+    has_symmetric_coupling() const
     {
       return !directions || !directions->forces;
     }

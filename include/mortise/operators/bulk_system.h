@@ -6,17 +6,22 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <mortise/operators/cell_functional.h>
+#include <mortise/operators/cells/cell_histories.h>
 #include <mortise/operators/levels/dirichlet_cell_pressures.h>
 #include <mortise/operators/levels/independent_displacements.h>
 #include <mortise/operators/levels/nodal_pressure.h>
 #include <mortise/operators/prescribed_values.h>
 
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace mortise
 {
+  class FollowerPressures;
   struct Loads;
+  using ThermalStrain = std::function<double(const dealii::Point<dim> &)>;
   struct SceneLoad;
   struct SystemVector;
 
@@ -36,6 +41,7 @@ namespace mortise
                std::shared_ptr<const NodalSpace> pressures,
                const Scene                      &scene,
                MPI_Comm                          comm);
+    ~BulkSystem();
 
     /// Replace the interfaces by @p couplings, whose traces have the nodes of
     /// the levels, and update independent_displacements() and the penalties.
@@ -74,6 +80,8 @@ namespace mortise
     apply_stiffness(Vector &dst, const Vector &src) const
     {
       stiffness->vmult(dst, src);
+      if (follower)
+        add_follower_product(dst, src);
     }
 
     /// dst_u = K u + G^T p, dst_p = G u - C p, see BlockSystem. Collective.
@@ -155,10 +163,100 @@ namespace mortise
     Vector
     values_at_nodes(const Coefficients &coefficient) const;
 
-    /// Internal forces K u + G^T p by node, also at constrained components;
-    /// @p p is not read without bodies in mixed form. Collective.
+    /// Has any body a law that is not linear? K and the products in mixed form
+    /// are those of its tangent at the last linearise().
+    bool
+    is_nonlinear() const;
+
+    /// History of points that nothing happened to.
+    PointHistory
+    no_history() const
+    {
+      return stiffness->elasticity().no_history();
+    }
+
+    /// @p history by body and cell.
+    std::vector<CellHistories>
+    by_cell(const PointHistory &history) const;
+
+    /// The inverse of by_cell().
+    PointHistory
+    by_point(const std::vector<CellHistories> &histories) const;
+
+    /// What bodies do against a displacement.
+    struct Response
+    {
+      /// By node, also at constrained components: internal forces int P : Grad
+      /// v with the nominal stress P, and in mixed form what keeps the
+      /// dilatation of pressures, see BlockSystem.
+      Vector       forces, dilatation;
+      PointHistory history; ///< up to here
+      /// The least determinant of deformation gradients.
+      double least_jacobian = 1.;
+    };
+
+    /// To the displacement @p u, values at nodes with those prescribed, and
+    /// @p p, which is not read without bodies in mixed form, after @p before,
+    /// nothing if it is empty. Collective.
+    Response
+    respond(const Vector       &u,
+            const Vector       &p,
+            const PointHistory &before,
+            const PointHistory &thermal_strains) const;
+
+    /// The thermal strains of bodies whose law is not linear at their points,
+    /// by body; nothing if none has any.
+    PointHistory
+    thermal_strains(const std::vector<ThermalStrain> &by_body) const;
+
+    /// Has K, diagonal() and what preconditioners are made of as derivatives at
+    /// @p u and @p p after @p before, as for respond(); the former ones of
+    /// preconditioners alone if @p preconditioners is false. Collective.
+    /// @p pressures: those whose forces depend on u, or null.
+    void
+    linearise(const Vector            &u,
+              const Vector            &p,
+              const PointHistory      &before,
+              const PointHistory      &thermal_strains,
+              const FollowerPressures *pressures,
+              bool                     preconditioners);
+
+    /// Let preconditioners see the tangent, without its initial stress if
+    /// @p initial_stress is false. Collective.
+    void
+    show_tangent(bool initial_stress);
+
+    /// May K be symmetric and positive definite? It is not symmetric with
+    /// pressures on deformed faces that have a free rim.
+    bool
+    may_be_positive() const
+    {
+      return positive;
+    }
+
+    /// To be called where K was found to have negative directions; until it is
+    /// linearised again.
+    void
+    note_negative_direction()
+    {
+      positive = false;
+    }
+
+    /// Forces by node, also at constrained components, of @p pressures at @p u,
+    /// as for respond(); on @p boundary of body @p body alone, if that is
+    /// given. Collective.
     Vector
-    internal_forces(const Vector &u, const Vector &p) const;
+    forces_of(const FollowerPressures   &pressures,
+              const Vector              &u,
+              const Body                *body     = nullptr,
+              dealii::types::boundary_id boundary = 0) const;
+
+    /// Where the least Jacobian of a displacement is, in words. Collective.
+    std::string
+    place_of_least_jacobian(const Vector       &u,
+                            const Vector       &p,
+                            const PointHistory &before,
+                            const PointHistory &thermal_strains) const;
 
     /// Set displacements and pressures of @p rhs to K u, zero at constrained
     /// components, and G u, for @p u that need not be zero there. Collective.
@@ -225,6 +323,23 @@ namespace mortise
                                double value)> &set) const;
 
   private:
+    void
+    add_follower_product(Vector &dst, const Vector &src) const;
+    /// The same with constrained components.
+    void
+    add_follower_product_free(Vector &dst, const Vector &src) const;
+    bool
+    follower_is_symmetric() const;
+    void
+    linearise_undeformed();
+    /// Sum up the forces of respond() and return the least Jacobian of this
+    /// rank's cells.
+    LeastJacobian
+    add_response(const Vector       &u,
+                 const Vector       &p,
+                 const PointHistory &before,
+                 const PointHistory &thermal_strains,
+                 Response           &sum) const;
     /// [K G^T; G -C] (u, p) with constrained components; @p dst_p and @p p are
     /// not used without bodies in mixed form.
     void
@@ -241,5 +356,7 @@ namespace mortise
     std::unique_ptr<NodalPressure>         pressures; ///< in mixed form
     DirichletCellPressures                 dirichlet_cell_pressures;
     Vector                                 norm_diagonal;
+    std::unique_ptr<FollowerPressures>     follower; ///< in K, or null
+    bool                                   positive = true;
   };
 } // namespace mortise

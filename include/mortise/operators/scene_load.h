@@ -10,6 +10,7 @@
 #include <mortise/operators/prescribed_values.h>
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace mortise
@@ -24,16 +25,26 @@ namespace mortise
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
                                    body_force;
     std::vector<TractionCondition> tractions;
+    std::vector<PressureCondition> follower_pressures;
     ThermalStrain                  thermal_strain;
   };
+
+  class FollowerPressures;
 
   struct SceneLoad
   {
     SystemVector               rhs; ///< (f, h, g)
     PrescribedValues           prescribed;
     std::vector<ThermalStrain> thermal_strains = {}; ///< by body, or none
+    /// BulkSystem::thermal_strains().
+    PointHistory thermal_strains_at_points = {};
     /// BulkSystem::external_forces(), or empty.
     LevelVector<double> external = {};
+    /// In scenes with laws that are not linear the prescribed displacements at
+    /// nodes, which are no part of rhs; else empty.
+    LevelVector<double> prescribed_at_nodes = {};
+    /// Null without.
+    std::shared_ptr<const FollowerPressures> follower_pressures = {};
   };
 
   /// Calls @p visit with each owned cell that may have loads and int b.v + int

@@ -3,6 +3,7 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <mortise/operators/cells/cell_histories.h>
 #include <mortise/operators/scene_system.h>
 
 #include <vector>
@@ -18,6 +19,7 @@ namespace mortise
     BodyVector    displacement;
     BodyVector    pressure; ///< in mixed form, else empty
     ThermalStrain thermal_strain = {};
+    CellHistories history        = {};
   };
 
   /// Zero solutions in the spaces of @p bodies.

@@ -10,8 +10,9 @@ namespace mortise
 {
   struct Extremes
   {
-    PeakSummary       displacement; ///< a length
-    StressPeakSummary von_mises;    ///< force per area
+    PeakSummary                displacement;   ///< a length
+    StressPeakSummary          von_mises;      ///< force per area
+    std::optional<PeakSummary> plastic_strain; ///< of laws that have one
   };
 
   /// Of @p solution at the nodes of the cells of @p body, corners among them: Gauss-Lobatto points of

@@ -15,10 +15,12 @@ namespace mortise
 
   struct FieldSelection
   {
-    bool displacement = false; ///< length
-    bool stress       = false; ///< force per area: tensor and von Mises
-    bool pressure     = false; ///< mean pressure, -tr(stress) / 3
-    bool traction     = false; ///< on slave surfaces: traction, gap, contact
+    bool displacement         = false; ///< length
+    bool stress               = false; ///< force per area: tensor and von Mises
+    bool pressure             = false; ///< mean pressure, -tr(stress) / 3
+    bool plastic_strain       = false; ///< equivalent; zero of laws without
+    bool deformation_gradient = false; ///< F = I + Grad u
+    bool traction = false; ///< on slave surfaces: traction, gap, contact
   };
 
   /// A number for each cell.

@@ -56,6 +56,7 @@ namespace mortise
     std::optional<double>            mass;             ///< if it has a density
     std::optional<PeakSummary>       displacement_max; ///< absent until solved
     std::optional<StressPeakSummary> von_mises_max;    ///< likewise
+    std::optional<PeakSummary> plastic_strain_max; ///< of laws that have one
   };
 
   struct DofSummary
@@ -139,6 +140,7 @@ namespace mortise
     std::optional<std::uint64_t> iterations;
     double                       relative_residual = 0.;
     std::optional<std::uint64_t> active_sets;       ///< with contact
+    std::optional<std::uint64_t> newton_iterations; ///< of nonlinear materials
     std::optional<std::uint64_t> linear_iterations; ///< of all of these
   };
 

@@ -82,7 +82,8 @@ namespace mortise
     unsigned int n_planned  = 0; ///< times that were reached
     unsigned int n_accepted = 0;
     double       reached    = 0.;
-    double       length; ///< infinite until a step is halved
+    double       largest; ///< of lengths
+    double       length;  ///< the largest until a step is halved
     bool         at_planned = false;
   };
 } // namespace mortise

@@ -4,12 +4,14 @@
 
 #include <mortise/problem/contact/contact_step.h>
 #include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/nonlinear_step.h>
 #include <mortise/problem/results/solved_step.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/state.h>
 #include <mortise/solvers/solve.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace mortise
@@ -32,14 +34,17 @@ namespace mortise
                 const State      &last,
                 const CyclePlan  *cycle);
 
-    /// Go on from @p values, the solution of the time of @p data. Collective.
-    SystemVector
-    resume(const SceneData &data, const SceneValues &values);
+    /// Go on from @p values, the solution of the time of @p data, which becomes
+    /// part of @p state. Collective.
+    void
+    resume(const SceneData &data, const SceneValues &values, State &state);
 
-    /// For @p load at the time of @p data; shortenings of preloads become part of @p load.
+    /// For @p load at the time of @p data, after @p last; shortenings of preloads
+    /// become part of @p load.
     /// @p start, by body, may be empty. Collective; throws InputError.
     SolvedState
     solve(const SceneData                 &data,
+          const State                     &last,
           const std::vector<BodySolution> &start,
           SceneLoad                       &load);
 
@@ -57,6 +62,15 @@ namespace mortise
       return contact ? contact->solved() : SolvedContact();
     }
 
+    /// Why Newton's method for nonlinear laws did not converge; empty if it
+    /// did, and without such laws.
+    std::string
+    nonlinear_reason() const
+    {
+      return nonlinear && !nonlinear->report().converged ? nonlinear->reason() :
+                                                           "";
+    }
+
     /// Number of active sets of contact if they did not converge, else zero.
     unsigned int
     unconverged_sets() const
@@ -71,5 +85,7 @@ namespace mortise
   private:
     const RunContext            &run;
     std::unique_ptr<ContactStep> contact; ///< null without
+    /// Null where all laws of material are linear.
+    std::unique_ptr<NonlinearStep> nonlinear;
   };
 } // namespace mortise

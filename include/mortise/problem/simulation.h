@@ -80,6 +80,13 @@ namespace mortise
     is_last_cycle() const;
     void
     announce_step() const;
+    /// Why the last step of a scene with nonlinear laws did not converge, as a
+    /// part of a sentence; empty if it did.
+    std::string
+    because() const;
+    /// If @p writes, the fields of the last step that did converge.
+    void
+    write_reached(bool writes);
     /// One step, which is halved if it does not converge and may be halved.
     void
     step(bool writes);

@@ -14,6 +14,10 @@ namespace mortise
   {
     double       time = 0.;
     SystemVector solution; ///< without prescribed values; empty: unloaded
+    /// In scenes with laws that are not linear: the displacement at nodes with
+    /// prescribed values, zero where nodes hang, and what points remember.
+    Vector       displacement;
+    PointHistory history;
     /// Absent before it is known; before the first step a guess.
     std::optional<ContactRecords> contact;
     /// By interface, the shortening of its preload, a length; empty before the

@@ -42,6 +42,13 @@ namespace mortise
     void
     update_interfaces();
 
+    /// Was the last update a success?
+    bool
+    is_ready() const
+    {
+      return valid;
+    }
+
     /// Set the limits of later solves in place of those of SolverOptions.
     void
     set_limits(const double       tolerance,

@@ -7,6 +7,7 @@
 #include <mortise/solvers/solve_report.h>
 
 #include <functional>
+#include <limits>
 
 namespace mortise
 {
@@ -40,6 +41,11 @@ namespace mortise
     /// Of one increment, where the residual does not fall; 0: full increments,
     /// for piecewise linear problems.
     unsigned int max_halvings = 8;
+    /// An increment is also taken if the residual stays below this, unless it
+    /// is the best iterate: where bodies bend, residuals grow before they fall.
+    double accepted = 0.;
+    /// Iterations after which the residual must be less than ever.
+    unsigned int patience = std::numeric_limits<unsigned int>::max();
     /// Called after each iteration with its number and the residual.
     std::function<void(unsigned int, double)> monitor;
   };
@@ -56,8 +62,9 @@ namespace mortise
   };
 
   /// Improve @p x. An increment that does not lower the residual (Armijo's
-  /// rule on its square) is halved; where that does not help, or a linear solve
-  /// fails, x is the best iterate and the report not converged. Collective.
+  /// rule on its square), nor is accepted all the same, is halved; where that
+  /// does not help, or a linear solve fails, x is the best iterate and the
+  /// report not converged. Collective.
   NewtonReport
   solve_newton(NonlinearProblem    &problem,
                const NewtonOptions &options,

@@ -55,6 +55,17 @@ namespace mortise
            const std::function<double()> &relative_error,
            SolveReport                   &report) const;
 
+    /// What rounding leaves of the residual of @p x, zero at constrained
+    /// components: a step of rounding for each of the terms of a row, whose
+    /// sizes are |K| |u| + |B|^T |lambda| + |f| with diag(K) for |K|.
+    /// Collective.
+    double
+    attainable(const SystemVector &rhs, const SystemVector &x) const
+    {
+      constexpr double rounding = 1e-14;
+      return rounding * magnitude(rhs, x);
+    }
+
     /// Lower bound of the energy of displacements that balance a right hand
     /// side of norm @p rhs_norm without multipliers: f D_u^{-1} f over the
     /// largest eigenvalue of D_u^{-1} K, at most 22 (degree 8 on tetrahedra).

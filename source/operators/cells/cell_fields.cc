@@ -2,8 +2,11 @@
 
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/simplex_basis.h>
+#include <mortise/material/nonlinear_law.h>
 #include <mortise/operators/cells/cell_fields.h>
 #include <mortise/operators/cells/lobatto_table.h>
+
+#include <algorithm>
 
 namespace mortise
 {
@@ -136,6 +139,16 @@ namespace mortise
                      const BodySolution       &solution)
   {
     reinit(cell, cell_coefficients(body, cell, solution));
+    histories.clear();
+    if (!solution.history.empty())
+      {
+        auto &values = by_element[cell->active_fe_index()];
+        if (!values)
+          values = std::make_unique<Histories>(body, rule(cell->get_fe()));
+        histories =
+          values->values.evaluate(cell,
+                                  solution.history[cell->active_cell_index()]);
+      }
     thermal_strains.clear();
     if (solution.thermal_strain)
       for (const Point<dim> &x : points)
@@ -151,11 +164,45 @@ namespace mortise
     return gradient;
   }
 
+  Material::Response
+  CellFields::respond(const unsigned int q) const
+  {
+    const double strain     = thermal_strains.empty() ? 0. : thermal_strains[q];
+    const NonlinearLaw *law = body.material.nonlinear().get();
+    const bool          finite = law != nullptr && is_finite(law->form());
+    // F = (1 + strain) F_e
+    Material::Response result =
+      body.material.respond(elastic(gradients[q], q) /
+                              (finite ? 1. + strain : 1.),
+                            pressures.empty() ? 0. : pressures[q],
+                            history(q));
+    if (finite)
+      result.nominal *= (1. + strain) * (1. + strain);
+    return result;
+  }
+
+  const double *
+  CellFields::history(const unsigned int q) const
+  {
+    return histories.empty() ?
+             nullptr :
+             &histories[q * body.material.nonlinear()->n_history()];
+  }
+
+  double
+  CellFields::plastic_strain(const unsigned int q) const
+  {
+    const NonlinearLaw *law = body.material.nonlinear().get();
+    if (histories.empty() || !law->plastic_strain())
+      return 0.;
+    // polynomials may be less
+    return std::max(0., history(q)[*law->plastic_strain()]);
+  }
+
   SymmetricTensor<2, dim>
   CellFields::stress(const unsigned int q) const
   {
-    return body.material.stress(elastic(gradients[q], q),
-                                pressures.empty() ? 0. : pressures[q]);
+    return respond(q).cauchy;
   }
 
   void

@@ -83,10 +83,12 @@ namespace mortise
     const auto &jacobians = geometry.jacobians(cell);
     normals.resize(points.size());
     weights.resize(points.size());
+    tangents.resize(points.size());
     for (unsigned int q = 0; q < points.size(); ++q)
       {
+        tangents[q] = {{along[0] * jacobians[q], along[1] * jacobians[q]}};
         const Tensor<1, dim> area =
-          cross_product_3d(along[0] * jacobians[q], along[1] * jacobians[q]);
+          cross_product_3d(tangents[q][0], tangents[q][1]);
         normals[q] = area / area.norm();
         weights[q] = reference_weights[q] * area.norm();
       }

@@ -45,8 +45,11 @@ namespace mortise
     auto found = by_body.find(body.index);
     if (found == by_body.end())
       found = by_body.emplace(body.index, share(body)).first;
-    Shared            &shared   = found->second;
-    const unsigned int n        = cell->n_vertices();
+    Shared            &shared = found->second;
+    const Moduli      &C = tangents != nullptr && body.material.nonlinear() ?
+                             (*tangents)[body.index][cell->active_cell_index()] :
+                             shared.C;
+    const unsigned int n = cell->n_vertices();
     const auto         constant = shared.geometry.constant_jacobian(cell);
     const auto        *varying =
       constant ? nullptr : shared.geometry.jacobians(cell).data();
@@ -72,7 +75,7 @@ namespace mortise
                 double sum = 0.;
                 for (unsigned int e = 0; e < dim; ++e)
                   for (unsigned int f = 0; f < dim; ++f)
-                    sum += shared.C[c][e][d][f] * H[e][f];
+                    sum += C[c][e][d][f] * H[e][f];
                 K(dim * i + c, dim * j + d) = K(dim * j + d, dim * i + c) = sum;
               }
         }

@@ -149,6 +149,9 @@ namespace mortise
     , stiffness(*level.space, *level.layout, pressures)
     , hanging(*level.space, *level.layout)
   {
+    if (level.linearisation)
+      stiffness.take_tangent(level.linearisation->finest,
+                             level.linearisation->has_initial_stress);
     if (with_penalty && level.penalties)
       penalty = std::make_unique<PenaltyProduct<Number>>(level.penalties);
   }

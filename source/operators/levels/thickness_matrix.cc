@@ -187,7 +187,7 @@ namespace mortise
                LevelFunctions        &functions,
                BlockCsrMatrixBuilder &builder)
     {
-      LinearCellMatrices matrices;
+      LinearCellMatrices matrices(level.cell_moduli());
       level.space->for_each_cell([&](const Body               &body,
                                      const auto               &cell,
                                      const std::vector<Index> &nodes) {

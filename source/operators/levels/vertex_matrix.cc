@@ -56,7 +56,7 @@ namespace mortise
               BlockCsrMatrixBuilder &builder,
               VertexMatrix          &result)
     {
-      LinearCellMatrices matrices;
+      LinearCellMatrices matrices(level.cell_moduli());
       const auto        &owned = level.space->owned_nodes();
       level.space->for_each_cell([&](const Body               &body,
                                      const auto               &cell,

@@ -45,12 +45,11 @@ namespace mortise
     public:
       static constexpr unsigned int width = Batch<Number>::size;
 
-      BatchBuilder(const NodalSpace                           &space,
-                   const Body                                 &body,
-                   const unsigned int                          element,
-                   const Utilities::MPI::Partitioner          &layout,
-                   const PressureNodes                        *pressures,
-                   std::shared_ptr<const NonlinearLaw<Number>> law)
+      BatchBuilder(const NodalSpace                  &space,
+                   const Body                        &body,
+                   const unsigned int                 element,
+                   const Utilities::MPI::Partitioner &layout,
+                   const PressureNodes               *pressures)
         : space(space)
         , body(body)
         , element(element)
@@ -63,7 +62,7 @@ namespace mortise
         batches.tetrahedra = body.mesh.tetrahedra;
         batches.degree     = degree;
         batches.n_points   = quadrature.size();
-        batches.nonlinear  = std::move(law);
+        batches.nonlinear  = body.material.nonlinear();
         batches.law        = body.material.template displacement_law<Number>();
         node_order =
           batches.tetrahedra ?
@@ -100,11 +99,15 @@ namespace mortise
         batches.metric.resize(batches.n_affine * point +
                               (batches.n_batches - batches.n_affine) *
                                 quadrature.size() * point);
-        if (batches.nonlinear)
-          batches.moduli.resize(batches.n_batches * quadrature.size() *
-                                batches.nonlinear->n_moduli * width);
         batches.pressure_nodes.resize(batches.n_batches *
                                       pressure_order.size() * width);
+        if (batches.nonlinear)
+          {
+            batches.tangent.resize(batches.n_batches * quadrature.size() *
+                                   batches.n_numbers() * width);
+            if (is_finite(batches.nonlinear->form()))
+              batches.deformed_metric.resize(batches.metric.size());
+          }
         for (unsigned int i = 0; i < cells.all.size(); ++i)
           {
             const bool         affine = i < cells.n_affine;
@@ -274,17 +277,14 @@ namespace mortise
   }
 
   template <typename Number>
-  CellBatches<Number>::CellBatches(
-    const NodalSpace                           &space,
-    const Body                                 &body,
-    const unsigned int                          element,
-    const Utilities::MPI::Partitioner          &layout,
-    const PressureNodes                        *pressures,
-    std::shared_ptr<const NonlinearLaw<Number>> law,
-    std::string                                &tangled)
+  CellBatches<Number>::CellBatches(const NodalSpace                  &space,
+                                   const Body                        &body,
+                                   const unsigned int                 element,
+                                   const Utilities::MPI::Partitioner &layout,
+                                   const PressureNodes               *pressures,
+                                   std::string                       &tangled)
   {
-    BatchBuilder<Number> builder(
-      space, body, element, layout, pressures, std::move(law));
+    BatchBuilder<Number> builder(space, body, element, layout, pressures);
     tangled = builder.build();
     *this   = std::move(builder.batches);
   }

@@ -41,12 +41,15 @@ namespace mortise
           for (unsigned int k = 0; k < n_p; ++k)
             one.pressure_nodes[k * width + lane] = lane * n_p + k;
         }
-      one.nonlinear              = cells.nonlinear;
-      const std::size_t n_moduli = cells.moduli.size() / cells.n_batches;
-      one.moduli.resize(n_moduli);
-      std::copy_n(cells.moduli.begin() + batch * n_moduli,
-                  n_moduli,
-                  one.moduli.begin());
+      one.nonlinear    = cells.nonlinear;
+      const auto share = [&](const AlignedVector<Number> &all) {
+        const std::size_t     n = all.size() / cells.n_batches;
+        AlignedVector<Number> part(n);
+        std::copy_n(all.begin() + batch * n, n, part.begin());
+        return part;
+      };
+      one.tangent         = share(cells.tangent);
+      one.deformed_metric = share(cells.deformed_metric);
       one.metric.resize((one.n_affine == 1 ? 1 : cells.n_points) * dim * dim *
                         width);
       std::copy_n(cells.metric_of(batch),

@@ -11,33 +11,23 @@ namespace mortise
   MatrixFreeElasticity<Number>::MatrixFreeElasticity(
     const NodalSpace                  &space,
     const Utilities::MPI::Partitioner &layout,
-    const PressureNodes               *pressures,
-    const LawOfBody                   &laws)
+    const PressureNodes               *pressures)
   {
     std::string tangled;
     for (const Body *body : space.bodies())
       for (unsigned int element = 0; element < body->fe.size(); ++element)
         {
           std::string problem;
-          groups.emplace_back(space,
-                              *body,
-                              element,
-                              layout,
-                              pressures,
-                              laws ? laws(*body) : nullptr,
-                              problem);
+          groups.emplace_back(
+            space, *body, element, layout, pressures, problem);
           if (tangled.empty())
             tangled = problem;
           std::unique_ptr<Kernel>    kernel;
           const CellBatches<Number> &cells = groups.back();
           if constexpr (std::is_same_v<Number, double>)
             if (!cells.pressure_nodes.empty())
-              {
-                AssertThrow(!cells.nonlinear,
-                            ExcMessage("Mixed form knows linear laws alone."));
-                kernel = cells.tetrahedra ? make_mixed_simplex_kernel(cells) :
-                                            make_mixed_kernel(cells);
-              }
+              kernel = cells.tetrahedra ? make_mixed_simplex_kernel(cells) :
+                                          make_mixed_kernel(cells);
           if (!kernel)
             kernel = cells.tetrahedra ? make_simplex_kernel(cells) :
                                         make_kernel(cells);
@@ -67,37 +57,55 @@ namespace mortise
   }
 
   template <typename Number>
-  PointHistory<Number>
+  PointHistory
   MatrixFreeElasticity<Number>::no_history() const
   {
-    PointHistory<Number> result(groups.size());
+    PointHistory result(groups.size());
     for (unsigned int g = 0; g < groups.size(); ++g)
-      if (groups[g].nonlinear)
-        result[g].resize(groups[g].moduli.size() /
-                         NonlinearLaw<Number>::n_moduli *
-                         groups[g].nonlinear->n_history());
+      if (const CellBatches<Number> &cells = groups[g]; cells.nonlinear)
+        result[g].resize(std::size_t(cells.n_batches) * cells.n_points *
+                         cells.nonlinear->n_history() * Batch<double>::size);
     return result;
   }
 
   template <typename Number>
-  void
-  MatrixFreeElasticity<Number>::add_residual(const Number               *u,
-                                             const PointHistory<Number> &before,
-                                             PointHistory<Number>       &after,
-                                             Number *dst) const
+  LeastJacobian
+  MatrixFreeElasticity<Number>::add_residual(const Fields       &src,
+                                             const PointHistory &before,
+                                             PointHistory       &after,
+                                             const Fields       &dst,
+                                             const PointHistory &thermal) const
   {
+    LeastJacobian least;
     for (unsigned int g = 0; g < groups.size(); ++g)
-      kernels[g]->add_residual(
-        groups[g], u, before[g].data(), after[g].data(), dst);
+      {
+        LeastJacobian of_group = kernels[g]->add_residual(
+          groups[g], src, state_of(g, before, thermal), after[g].data(), dst);
+        of_group.group = g;
+        if (!(of_group.value >= least.value))
+          least = of_group;
+      }
+    return least;
   }
 
   template <typename Number>
   void
-  MatrixFreeElasticity<Number>::linearise(const Number               *u,
-                                          const PointHistory<Number> &before)
+  MatrixFreeElasticity<Number>::linearise(const Fields       &src,
+                                          const PointHistory &before,
+                                          const PointHistory &thermal)
   {
     for (unsigned int g = 0; g < groups.size(); ++g)
-      kernels[g]->linearise(groups[g], u, before[g].data());
+      kernels[g]->linearise(groups[g], src, state_of(g, before, thermal));
+  }
+
+  template <typename Number>
+  std::vector<std::vector<Moduli>>
+  MatrixFreeElasticity<Number>::average_moduli(const bool initial_stress) const
+  {
+    std::vector<std::vector<Moduli>> result;
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      result.push_back(kernels[g]->average_moduli(groups[g], initial_stress));
+    return result;
   }
 
   template <typename Number>

@@ -1,6 +1,6 @@
 // The kernels behind MatrixFreeElasticity in mixed form on hexahedra.
 #include <mortise/operators/matrix_free/hexahedra.h>
-#include <mortise/operators/matrix_free/mixed_kernel_on.h>
+#include <mortise/operators/matrix_free/nonlinear_kernel_on.h>
 
 namespace mortise
 {
@@ -11,10 +11,8 @@ namespace mortise
   {
     return with_degree<2>(cells.degree, [&](const auto degree) {
       constexpr int n = degree + 1;
-      return std::unique_ptr<Kernel>(
-        std::make_unique<
-          MixedKernelOn<Hexahedra<Number, n>, HexahedralPressures<Number, n>>>(
-          cells));
+      return make_mixed_kernel_on<Hexahedra<Number, n>,
+                                  HexahedralPressures<Number, n>>(cells);
     });
   }
 

@@ -1,5 +1,5 @@
 // The kernels behind MatrixFreeElasticity in mixed form on tetrahedra.
-#include <mortise/operators/matrix_free/mixed_kernel_on.h>
+#include <mortise/operators/matrix_free/nonlinear_kernel_on.h>
 #include <mortise/operators/matrix_free/simplices.h>
 
 namespace mortise
@@ -10,10 +10,8 @@ namespace mortise
     const CellBatches<Number> &cells)
   {
     return with_degree<2>(cells.degree, [&](const auto degree) {
-      return std::unique_ptr<Kernel>(
-        std::make_unique<MixedKernelOn<Simplices<Number, degree>,
-                                       SimplexPressures<Number, degree>>>(
-          cells));
+      return make_mixed_kernel_on<Simplices<Number, degree>,
+                                  SimplexPressures<Number, degree>>(cells);
     });
   }
 

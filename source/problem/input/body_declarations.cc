@@ -1,5 +1,7 @@
 #include <mortise/problem/input/parameter_schema.h>
 
+#include <sstream>
+
 namespace mortise
 {
   namespace
@@ -18,6 +20,23 @@ namespace mortise
             value.fail(in_quotes(record[0] + ": " + record[1]),
                        "each material id only once");
         }
+    }
+
+    /// "a, b; c, d; ..."
+    std::vector<std::pair<double, double>>
+    pairs(const ParameterValue &value)
+    {
+      std::vector<std::pair<double, double>> result;
+      std::istringstream                     records(value.text);
+      for (std::string record; std::getline(records, record, ';');)
+        {
+          const std::size_t comma = record.find(',');
+          if (comma == std::string::npos)
+            value.fail(in_quotes(record));
+          result.emplace_back(value.number(record.substr(0, comma)),
+                              value.number(record.substr(comma + 1)));
+        }
+      return result;
     }
 
     void
@@ -43,6 +62,16 @@ namespace mortise
         boundary.pressure,
         "Pressure, acting against the outward normal [force per area]. Empty: none.",
         {"an expression in x, y, z, t; or exact"});
+      section.add(
+        "Pressure follows",
+        "auto",
+        "Does Pressure act on the deformed face, along its normal and per its area? auto: in bodies with finite strains.",
+        Allowed::one_of({"auto", "true", "false"}),
+        [&boundary](const ParameterValue &value) {
+          boundary.pressure_follows.reset();
+          if (value.text != "auto")
+            boundary.pressure_follows = value.text == "true";
+        });
       section.add(
         "Traction",
         boundary.traction,
@@ -76,6 +105,75 @@ namespace mortise
     }
 
     void
+    set_ogden_terms(MaterialParameters &material, const ParameterValue &value)
+    {
+      material.ogden_terms.clear();
+      for (const auto &[modulus, exponent] : pairs(value))
+        material.ogden_terms.push_back({modulus, exponent});
+    }
+
+    void
+    declare_nonlinear_constants(const ParameterSection &section,
+                                MaterialParameters     &material)
+    {
+      const Allowed not_negative = {"0 or a positive number"};
+      section.add(
+        "C10",
+        material.c10,
+        "Constant of the first invariant of Law = Mooney-Rivlin [force per area].",
+        not_negative);
+      section.add(
+        "C01",
+        material.c01,
+        "Constant of the second invariant of Law = Mooney-Rivlin [force per area].",
+        not_negative);
+      section.add(
+        "Ogden terms",
+        "",
+        "Moduli and exponents of Law = Ogden, W = sum_p mu_p / alpha_p (sum_a l_a^alpha_p - 3) of isochoric stretches "
+        "[force per area; -].",
+        {"\"mu_1, alpha_1; mu_2, alpha_2; ...\" with mu_p alpha_p > 0"},
+        [&material](const ParameterValue &value) {
+          set_ogden_terms(material, value);
+        });
+      Hardening &hardening = material.hardening;
+      section.add(
+        "Yield stress",
+        hardening.yield_stress,
+        "First yield stress of Law = J2 plasticity in tension [force per area].",
+        not_negative);
+      section.add(
+        "Hardening modulus",
+        hardening.modulus,
+        "Linear isotropic hardening: stress per plastic strain [force per area].",
+        not_negative);
+      section.add(
+        "Saturation stress",
+        hardening.saturation_stress,
+        "Yield stress that exponential hardening, added to the linear one, ends at [force per area]. 0: none.",
+        not_negative);
+      section.add(
+        "Saturation exponent",
+        hardening.saturation_exponent,
+        "How fast it does so: the rest falls as exp(-exponent times plastic strain) [-].",
+        not_negative);
+      section.add(
+        "Kinematic hardening modulus",
+        hardening.kinematic_modulus,
+        "Linear kinematic hardening (Prager): back stress per plastic strain in tension [force per area].",
+        not_negative);
+      section.add(
+        "Hardening table",
+        "",
+        "Yield stress by equivalent plastic strain, linear between the points and constant beyond, in place of Yield "
+        "stress, Hardening modulus and Saturation stress [-, force per area].",
+        {"\"strain, stress; strain, stress; ...\", strains ascending from 0, stresses not descending"},
+        [&hardening](const ParameterValue &value) {
+          hardening.table = pairs(value);
+        });
+    }
+
+    void
     declare_material(const ParameterSection &section,
                      MaterialParameters     &material)
     {
@@ -84,14 +182,23 @@ namespace mortise
                   "Material law; each takes its own of the constants below.",
                   Allowed::one_of(law_names()));
       section.add(
+        "Strain",
+        material.strain,
+        "Measure of strain. small: of the undeformed body, for which rotations are small, too. finite: linear elastic "
+        "and J2 plasticity then stand on the logarithmic strain. auto: finite for hyperelastic laws, else small.",
+        Allowed::one_of({"auto", "small", "finite"}));
+      section.add(
         "Young modulus",
         material.young_modulus,
-        "Young's modulus of Law = linear elastic [force per area], which needs one.",
+        "Young's modulus at small strain of Law = linear elastic, neo-Hookean, St. Venant-Kirchhoff and J2 plasticity "
+        "[force per area], which need one.",
         {"a positive number"});
-      section.add("Poisson ratio",
-                  material.poisson_ratio,
-                  "Poisson's ratio of Law = linear elastic [-].",
-                  {"a number above -1 and not above 0.5"});
+      section.add(
+        "Poisson ratio",
+        material.poisson_ratio,
+        "Poisson's ratio at small strain of all laws but orthotropic [-].",
+        {"a number above -1 and not above 0.5"});
+      declare_nonlinear_constants(section, material);
       Orthotropic &orthotropic = material.orthotropic;
       section.add(
         "Young moduli",

@@ -13,9 +13,6 @@ namespace mortise
     /// solvers slow down at all.
     constexpr double nearly_incompressible = 0.49;
 
-    /// The law that has a mixed form.
-    constexpr const char *isotropic_law = "linear elastic";
-
     unsigned int
     least_degree(const BodyParameters &body)
     {
@@ -26,13 +23,12 @@ namespace mortise
     bool
     wants_mixed_form(const BodyParameters &body)
     {
-      return body.material.law == isotropic_law &&
+      return has_mixed_form(body.material.law) &&
              (body.formulation == Formulation::mixed ||
               (body.formulation == Formulation::automatic &&
                body.material.poisson_ratio >= nearly_incompressible));
     }
 
-    /// The mixed form has one law alone.
     void
     check_form_of_other_laws(const Parameters     &parameters,
                              const BodyParameters &body)
@@ -51,8 +47,7 @@ namespace mortise
       if (body.formulation == Formulation::mixed)
         parameters.fail(path,
                         got.str(),
-                        "displacement or auto: the mixed form is for Law = " +
-                          std::string(isotropic_law) + " alone");
+                        "displacement or auto: the law has no mixed form");
       if (body.formulation == Formulation::automatic &&
           nu >= nearly_incompressible)
         {
@@ -62,16 +57,14 @@ namespace mortise
           parameters.fail(
             path,
             got.str(),
-            "displacement, which locks at low degrees: the mixed form is "
-            "for Law = " +
-              std::string(isotropic_law) + " alone");
+            "displacement, which locks at low degrees: the law has no mixed form");
         }
     }
 
     void
     check_form(const Parameters &parameters, const BodyParameters &body)
     {
-      if (body.material.law != isotropic_law)
+      if (!has_mixed_form(body.material.law))
         return check_form_of_other_laws(parameters, body);
       const double       nu      = body.material.poisson_ratio;
       const std::string  section = "Body " + body.name;
@@ -160,9 +153,8 @@ namespace mortise
     for (const BodyParameters &body : parameters.bodies)
       {
         check_form(parameters, body);
-        incompressible =
-          incompressible || (body.material.law == isotropic_law &&
-                             body.material.poisson_ratio == 0.5);
+        incompressible = incompressible || (has_mixed_form(body.material.law) &&
+                                            body.material.poisson_ratio == 0.5);
       }
     const ExactSolutionParameters &exact = parameters.exact_solution;
     const std::string              path  = "Exact solution/Pressure";

@@ -25,4 +25,8 @@ namespace mortise
   /// the exact solution.
   void
   check_loads(const Parameters &parameters);
+
+  /// What goes together with laws of material that are not linear.
+  void
+  check_nonlinear_laws(const Parameters &parameters);
 } // namespace mortise

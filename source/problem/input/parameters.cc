@@ -38,8 +38,14 @@ namespace mortise
   const std::vector<std::string> &
   field_names()
   {
-    static const std::vector<std::string> names = {
-      "displacement", "stress", "pressure", "traction", "degree", "estimate"};
+    static const std::vector<std::string> names = {"displacement",
+                                                   "stress",
+                                                   "pressure",
+                                                   "plastic_strain",
+                                                   "deformation_gradient",
+                                                   "traction",
+                                                   "degree",
+                                                   "estimate"};
     return names;
   }
 

@@ -284,6 +284,7 @@ namespace mortise
     check_pairs_of_interfaces(parameters);
     check_names_of_interfaces(parameters);
     check_formulations(parameters);
+    check_nonlinear_laws(parameters);
     check_steps(parameters);
     check_adaptivity(parameters);
     check_output(parameters.output, parameters);

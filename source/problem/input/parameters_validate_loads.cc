@@ -144,6 +144,10 @@ namespace mortise
                        true);
       if (boundary.pressure)
         check_field(parameters, section + "/Pressure", *boundary.pressure);
+      if (boundary.pressure_follows && !boundary.pressure)
+        parameters.fail(section + "/Pressure follows",
+                        "a value without Pressure",
+                        "auto, or a Pressure");
       const ExactKind kind = parameters.exact_solution.kind;
       if ((kind == ExactKind::thick_sphere ||
            kind == ExactKind::thick_cylinder) &&

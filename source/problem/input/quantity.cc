@@ -78,6 +78,22 @@ namespace mortise
     return parameters;
   }
 
+  Parameters
+  with_ramp(Parameters parameters)
+  {
+    if (!parameters.steps.given() &&
+        std::any_of(parameters.bodies.begin(),
+                    parameters.bodies.end(),
+                    [](const BodyParameters &body) {
+                      return !is_linear(body.material);
+                    }))
+      {
+        parameters.steps.end_time = 1.;
+        parameters.steps.ramp     = true;
+      }
+    return parameters;
+  }
+
   void
   check_adaptivity(const Parameters &parameters)
   {

@@ -98,9 +98,15 @@ namespace mortise
       "Fields are written at every n-th of these times, and at the end.",
       Allowed::integer(1));
     section.add(
+      "Largest step",
+      steps.largest_step,
+      "Longest step in a nonlinear scene [time]; steps between the times of Step are cut evenly. Empty: no limit.",
+      Allowed::positive_number());
+    section.add(
       "Smallest step",
       steps.smallest_step,
-      "Steps that fail in a nonlinear scene are halved, down to this fraction of the planned step [-].",
+      "Steps that fail in a nonlinear scene are halved, down to this fraction of the planned step [-]; after those that "
+      "converge easily the next ones are longer again.",
       Allowed::positive_number());
   }
 } // namespace mortise

@@ -1,5 +1,6 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/material/nonlinear_law.h>
 #include <mortise/operators/boundary_nodes.h>
 #include <mortise/output/functionals.h>
 #include <mortise/problem/results/boundary_forces.h>
@@ -18,6 +19,14 @@ namespace mortise
       for (bool &component : which)
         component = !component;
       return which;
+    }
+
+    /// Are moments those about deformed positions?
+    bool
+    has_finite_strain(const Body &body)
+    {
+      return body.material.nonlinear() &&
+             is_finite(body.material.nonlinear()->form());
     }
 
     Tensor<1, dim>
@@ -131,8 +140,12 @@ namespace mortise
     , dirichlet(discretisation)
   {
     const BulkSystem &bulk = *discretisation.linear_system().bulk;
-    borne = bulk.internal_forces(values_at_nodes(discretisation, solutions),
-                                 solved.solution.pressure);
+    borne                  = bulk
+              .respond(values_at_nodes(discretisation, solutions),
+                       solved.solution.pressure,
+                       solved.history,
+                       solved.load.thermal_strains_at_points)
+              .forces;
     borne -= solved.load.external;
     reactions = borne;
     applied   = sum_over_nodes(solved.load.external);
@@ -225,13 +238,21 @@ namespace mortise
         loads[b].tractions.push_back(condition);
     LevelVector<double> forces =
       discretisation.linear_system().bulk->external_forces(loads);
+    if (solved.load.follower_pressures)
+      forces += discretisation.linear_system().bulk->forces_of(
+        *solved.load.follower_pressures,
+        values_at_nodes(discretisation, solutions),
+        &body,
+        boundary);
     add_borne(b, boundary, forces);
     add_interfaces(b, boundary, forces);
 
     const LevelVector<double> wanted =
       boundary_nodes(nodes_of(discretisation), body, boundary);
-    const LevelVector<double> places =
+    LevelVector<double> places =
       node_positions(nodes_of(discretisation), body, wanted);
+    if (has_finite_strain(body))
+      places += values_at_nodes(discretisation, solutions);
     ForceAndMoment result;
     for (unsigned int i = 0; i < forces.locally_owned_size(); i += dim)
       if (wanted.local_element(i) > 0.)
@@ -248,6 +269,32 @@ namespace mortise
     const MPI_Comm comm = forces.get_mpi_communicator();
     return {Utilities::MPI::sum(result.force, comm),
             Utilities::MPI::sum(result.moment, comm)};
+  }
+
+  Tensor<1, dim>
+  BoundaryForces::moment_of_displacement(const unsigned int i) const
+  {
+    const SideParameters &slave = discretisation.interfaces().sides()[i].slave;
+    if (!has_finite_strain(*discretisation.bodies()[slave.body]))
+      return {};
+    const LevelVector<double> forces =
+      dirichlet.forces_of(i, solved.solution.multiplier);
+    const LevelVector<double> u = values_at_nodes(discretisation, solutions),
+                              there =
+                                boundaries_at_nodes(discretisation, slave);
+    Tensor<1, dim> sum;
+    for (unsigned int k = 0; k < forces.locally_owned_size(); k += dim)
+      if (there.local_element(k) > 0.)
+        {
+          Tensor<1, dim> force, arm;
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              force[c] = forces.local_element(k + c);
+              arm[c]   = u.local_element(k + c);
+            }
+          sum += cross_product_3d(arm, force);
+        }
+    return Utilities::MPI::sum(sum, forces.get_mpi_communicator());
   }
 
   EquilibriumSummary

@@ -90,10 +90,13 @@ namespace mortise
     const FieldSelection selection{wants("displacement"),
                                    wants("stress"),
                                    wants("pressure"),
+                                   wants("plastic_strain"),
+                                   wants("deformation_gradient"),
                                    wants("traction")};
     const Bodies        &bodies = evaluation.discretisation.bodies();
     steps.emplace_back(step, time);
     if (selection.displacement || selection.stress || selection.pressure ||
+        selection.plastic_strain || selection.deformation_gradient ||
         wants("degree") || wants("estimate"))
       for (const auto &body : bodies)
         try_output(unwritten, [&] {

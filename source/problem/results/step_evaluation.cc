@@ -33,7 +33,12 @@ namespace mortise
   StepEvaluation::solutions() const
   {
     return once(by_body, [&] {
-      return discretisation.solutions(solved.load, solved.solution);
+      auto result = discretisation.solutions(solved.load, solved.solution);
+      auto histories =
+        discretisation.linear_system().bulk->by_cell(solved.history);
+      for (unsigned int b = 0; b < histories.size(); ++b)
+        result[b].history = std::move(histories[b]);
+      return result;
     });
   }
 

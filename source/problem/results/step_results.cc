@@ -105,8 +105,9 @@ namespace mortise
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const Extremes largest = extremes(*bodies[b], step.solutions()[b]);
-        summary.bodies[b].displacement_max = largest.displacement;
-        summary.bodies[b].von_mises_max    = largest.von_mises;
+        summary.bodies[b].displacement_max   = largest.displacement;
+        summary.bodies[b].von_mises_max      = largest.von_mises;
+        summary.bodies[b].plastic_strain_max = largest.plastic_strain;
       }
     for (unsigned int i = 0; i < interfaces.size(); ++i)
       {
@@ -116,7 +117,8 @@ namespace mortise
         InterfaceSummary &of      = summary.interfaces[i];
         of.force                  = components(carried.force);
         of.moment =
-          components(carried.moment - cross_product_3d(about, carried.force));
+          components(carried.moment + step.forces().moment_of_displacement(i) -
+                     cross_product_3d(about, carried.force));
         of.force_residual  = carried.force_residual;
         of.moment_residual = carried.moment_residual;
       }

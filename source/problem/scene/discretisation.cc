@@ -1,5 +1,6 @@
 #include <mortise/base/error.h>
 #include <mortise/operators/body_volume.h>
+#include <mortise/operators/follower_pressures.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/support/rigid_motions.h>
 #include <mortise/solvers/multipliers/redundant_multipliers.h>
@@ -159,17 +160,34 @@ namespace mortise
     SceneLoad load{system.zero_vector(), prescribed_values(spaces, data)};
     for (const Loads &of_body : loads)
       load.thermal_strains.push_back(of_body.thermal_strain);
-    if (spaces.has_prescribed_values())
+    // the points of nonlinear laws know them, others have an equivalent load
+    load.thermal_strains_at_points =
+      system.bulk->thermal_strains(load.thermal_strains);
+    for (const auto &body : spaces.bodies)
+      if (body->material.nonlinear())
+        loads[body->index].thermal_strain = {};
+    if (spaces.has_prescribed_values() || system.bulk->is_nonlinear())
       {
         const auto &numbering = spaces.fields.displacement.numbering;
-        system.apply_to_constrained(
+        Vector      values =
           system.bulk->values_at_nodes([&](const auto body, const auto dof) {
             return prescribed_value(load.prescribed, numbering(body, dof));
-          }),
-          load.rhs);
-        scale(load.rhs, -1.);
+          });
+        if (system.bulk->is_nonlinear())
+          load.prescribed_at_nodes = std::move(values);
+        else
+          {
+            system.apply_to_constrained(values, load.rhs);
+            scale(load.rhs, -1.);
+          }
       }
     system.bulk->add_loads(loads, load);
+    if (std::any_of(loads.begin(), loads.end(), [](const Loads &of_body) {
+          return !of_body.follower_pressures.empty();
+        }))
+      load.follower_pressures =
+        std::make_shared<const FollowerPressures>(system.bulk->levels().front(),
+                                                  loads);
     for (unsigned int i = 0; i < pairing->all().size(); ++i)
       if (const auto offset = data.offset(pairing->sides()[i]);
           offset && load.rhs.multiplier.size() > 0)
@@ -305,6 +323,7 @@ namespace mortise
            material.density > 0. ?
              std::optional<double>(material.density * volume) :
              std::nullopt,
+           {},
            {},
            {}});
       }

@@ -169,6 +169,20 @@ namespace mortise
                        });
   }
 
+  namespace
+  {
+    template <typename Function>
+    Function
+    scaled(const Function &function, const double factor)
+    {
+      if (!function || factor == 1.)
+        return function;
+      return [function, factor](const auto &...at) {
+        return factor * function(at...);
+      };
+    }
+  } // namespace
+
   Loads
   SceneData::loads(const Body &body) const
   {
@@ -261,13 +275,25 @@ namespace mortise
             const Expression  pressure(*boundary.pressure, here, time);
             const std::string what =
               here + ": " + in_quotes(*boundary.pressure);
-            loads.tractions.push_back(
-              {id,
-               [=, &watch](const Point<dim> &x, const Tensor<1, dim> &normal) {
-                 return -watch(pressure.value(x), x, what) * normal;
-               }});
+            if (boundary.pressure_follows.value_or(is_finite(given.material)))
+              loads.follower_pressures.push_back(
+                {id, [=, &watch](const Point<dim> &x) {
+                   return watch(pressure.value(x), x, what);
+                 }});
+            else
+              loads.tractions.push_back(
+                {id,
+                 [=, &watch](const Point<dim>     &x,
+                             const Tensor<1, dim> &normal) {
+                   return -watch(pressure.value(x), x, what) * normal;
+                 }});
           }
       }
+    loads.body_force = scaled(loads.body_force, factor);
+    for (TractionCondition &condition : loads.tractions)
+      condition.traction = scaled(condition.traction, factor);
+    for (PressureCondition &condition : loads.follower_pressures)
+      condition.pressure = scaled(condition.pressure, factor);
     return loads;
   }
 
@@ -282,7 +308,7 @@ namespace mortise
     const std::string what = where + ": " + in_quotes(*given.temperature);
     return [temperature,
             what,
-            expansion = given.material.thermal_expansion,
+            expansion = factor * given.material.thermal_expansion,
             &watch    = checks](const Point<dim> &x) {
       return expansion * watch(temperature.value(x), x, what);
     };
@@ -299,8 +325,9 @@ namespace mortise
         expression.value(Point<dim>()) == 0.)
       return {};
     const std::string what = where + ": " + in_quotes(given.offset);
-    return [expression, what, &watch = checks](const Point<dim> &x) {
-      return watch(expression.value(x), x, what);
+    return [expression, what, factor = factor, &watch = checks](
+             const Point<dim> &x) {
+      return factor * watch(expression.value(x), x, what);
     };
   }
 
@@ -387,11 +414,15 @@ namespace mortise
           const Tensor<2, dim> axes =
             RigidMotion(entry.second.displacement_axes, {}).rotation;
           if (!all_zero(field))
-            condition.value = [=, &watch](const Point<dim> &x) {
-              return axes * evaluate(field, x, watch, [&](const Point<dim> &p) {
-                       return exact->displacement(p, b);
-                     });
-            };
+            condition.value = scaled(
+              std::function<Tensor<1, dim>(const Point<dim> &)>(
+                [=, &watch](const Point<dim> &x) {
+                  return axes *
+                         evaluate(field, x, watch, [&](const Point<dim> &p) {
+                           return exact->displacement(p, b);
+                         });
+                }),
+              factor);
           conditions.push_back(condition);
         }
     return conditions;

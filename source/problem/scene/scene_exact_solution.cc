@@ -72,11 +72,11 @@ namespace mortise
               source + "; body " + in_quotes(parameters.bodies[b].name, '\'') +
               " has Source = " + mesh.source);
           const Material material = materials(parameters)[b];
-          if (material.isotropic() == nullptr)
+          if (material.isotropic() == nullptr || material.nonlinear())
             throw InputError(
               where +
               ": the named solution needs bodies of Law = linear "
-              "elastic; body " +
+              "elastic at small strain; body " +
               in_quotes(parameters.bodies[b].name, '\'') +
               " has Law = " + parameters.bodies[b].material.law);
           layers.push_back(
@@ -193,10 +193,11 @@ namespace mortise
   } // namespace
 
   SceneData::SceneData(const Parameters &parameters,
-                       const double      time,
+                       const double      at,
                        FieldChecks      &checks)
     : parameters(parameters)
-    , time(time)
+    , factor(parameters.steps.ramp ? at : 1.)
+    , time(parameters.steps.ramp ? 1. : at)
     , checks(checks)
   {
     const ExactSolutionParameters &given = parameters.exact_solution;

@@ -257,10 +257,10 @@ namespace mortise
     const bool         tied = system.owned_multiplier.size() > 0;
     const SparseMatrix B =
       tied ? system.directed_constraint().expanded() : SparseMatrix();
-    const SparseMatrix              other_forces = system.is_symmetric() ?
-                                                     SparseMatrix() :
-                                                     system.directed_forces().expanded();
-    CellIndices                     cells(bulk, numbering);
+    const SparseMatrix other_forces = system.has_symmetric_coupling() ?
+                                        SparseMatrix() :
+                                        system.directed_forces().expanded();
+    CellIndices        cells(bulk, numbering);
     const AffineConstraints<double> constraints =
       monolithic_constraints(bulk, numbering, relevant_rows(cells, numbering));
 
@@ -270,7 +270,8 @@ namespace mortise
                               residual,
                               numbering,
                               B,
-                              system.is_symmetric() ? B : other_forces,
+                              system.has_symmetric_coupling() ? B :
+                                                                other_forces,
                               [&](const Index               i,
                                   const ExpansionList      &columns,
                                   const FullMatrix<double> &values,

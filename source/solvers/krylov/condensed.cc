@@ -203,7 +203,7 @@ namespace mortise
                        const bool          is_zero,
                        SolveReport        &report)
   {
-    if (!system.is_symmetric())
+    if (!system.suits_conjugate_gradients())
       return solve_saddle_point(
         system, *residual, *preconditioner, nullptr, options, rhs, x, report);
     ProjectedConjugateGradients solver(

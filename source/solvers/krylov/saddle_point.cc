@@ -267,7 +267,7 @@ namespace mortise
       const double energy_tolerance =
         system.mixed() ? options.tolerance : options.energy_tolerance();
       return reached <= target &&
-             (!system.is_symmetric() ||
+             (!system.suits_conjugate_gradients() ||
               preconditioner.error_energy(all_r) <=
                 energy_tolerance * energy_tolerance *
                   std::max(energy_of(solution, system),

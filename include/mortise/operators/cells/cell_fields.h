@@ -47,16 +47,28 @@ namespace mortise
     std::vector<dealii::Tensor<2, dim>> gradients; ///< du_c/dx_e as [c][e]
     std::vector<double> pressures;       ///< of the mixed form, else empty
     std::vector<double> thermal_strains; ///< if there are any, else empty
+    /// [point][number] of NonlinearLaw::n_history(), else empty.
+    std::vector<double> histories;
 
     /// @p gradient at point @p q without the thermal strain.
     dealii::Tensor<2, dim>
     elastic(dealii::Tensor<2, dim> gradient, unsigned int q) const;
 
-    /// At point @p q.
+    Material::Response
+    respond(unsigned int q) const;
+
+    /// The equivalent plastic strain at point @p q, zero of laws without.
+    double
+    plastic_strain(unsigned int q) const;
+
+    /// Cauchy's, at point @p q.
     dealii::SymmetricTensor<2, dim>
     stress(unsigned int q) const;
 
   private:
+    const double *
+    history(unsigned int q) const;
+
     struct Hexahedra;  ///< of one degree
     struct Tetrahedra; ///< of one degree and order of vertices
 
@@ -70,8 +82,20 @@ namespace mortise
     map_to_space(const std::vector<CellGeometry::Jacobian> &jacobians,
                  const std::vector<double>                 &reference_weights);
 
+    struct Histories
+    {
+      Histories(const Body &body, const dealii::Quadrature<dim> &given)
+        : rule(given)
+        , values(body, rule)
+      {}
+
+      const dealii::Quadrature<dim> rule;
+      HistoryValues                 values;
+    };
+
     const Body                                         &body;
     const Rule                                          rule;
+    std::map<unsigned int, std::unique_ptr<Histories>>  by_element;
     std::map<unsigned int, std::unique_ptr<Hexahedra>>  hexahedra;
     std::map<unsigned int, std::unique_ptr<Tetrahedra>> tetrahedra;
   };

@@ -41,6 +41,16 @@ namespace mortise
     std::vector<dealii::Point<dim>>     points;
     std::vector<double>                 weights; ///< JxW
     std::vector<dealii::Tensor<1, dim>> normals; ///< outward, of unit length
+    /// Two edges of the reference face in space; their cross product points
+    /// outwards.
+    std::vector<std::array<dealii::Tensor<1, dim>, 2>> tangents;
+
+    /// The same in the unit cell.
+    const std::array<dealii::Tensor<1, dim>, 2> &
+    reference_tangents() const
+    {
+      return along;
+    }
 
   private:
     CellGeometry                          geometry;

@@ -10,9 +10,19 @@
 
 namespace mortise
 {
+  /// By body and active cell of its mesh; nothing of bodies whose law is
+  /// linear.
+  using CellModuli = std::vector<std::vector<Moduli>>;
+
   class LinearCellMatrices
   {
   public:
+    /// @p tangents: of bodies whose law is not linear, if there are any, kept by
+    /// reference; Hooke's law, if it is null.
+    explicit LinearCellMatrices(const CellModuli *tangents = nullptr)
+      : tangents(tangents)
+    {}
+
     /// With the moduli C of the law, the component c of vertex i at dim i + c,
     ///
     ///     K_(ic)(jd) = int sum_ef C_cedf dN_i/dx_e dN_j/dx_f.
@@ -34,6 +44,7 @@ namespace mortise
     static Shared
     share(const Body &body);
 
+    const CellModuli                   *tangents;
     std::map<unsigned int, Shared>      by_body;
     std::vector<dealii::Tensor<1, dim>> gradients; ///< sqrt(w |J|) dN_i/dx
     dealii::FullMatrix<double>          K;

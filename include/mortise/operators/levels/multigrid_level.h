@@ -5,6 +5,7 @@
 #include <deal.II/base/partitioner.h>
 
 #include <mortise/mortar/coupling.h>
+#include <mortise/operators/cells/linear_cell_matrices.h>
 #include <mortise/operators/levels/jump_penalty.h>
 #include <mortise/operators/levels/level_operator_base.h>
 #include <mortise/operators/matrix_free/hanging_nodes.h>
@@ -15,6 +16,16 @@
 
 namespace mortise
 {
+  /// Tangents of bodies whose law is not linear.
+  struct Linearisation
+  {
+    const MatrixFreeElasticity<double> &finest; ///< at the points of its cells
+    CellModuli                          by_cell;
+    /// Without it the tangent is positive in most states in which it would not
+    /// be.
+    bool has_initial_stress = true;
+  };
+
   struct MultigridLevel
   {
     std::shared_ptr<const NodalSpace> space;
@@ -24,6 +35,14 @@ namespace mortise
     std::vector<unsigned int> constrained;
     /// Of interfaces; null without.
     std::shared_ptr<const JumpPenalties> penalties;
+    /// Null where there is nothing but Hooke's law.
+    std::shared_ptr<const Linearisation> linearisation;
+
+    const CellModuli *
+    cell_moduli() const
+    {
+      return linearisation ? &linearisation->by_cell : nullptr;
+    }
   };
 
   /// The level of the scene on @p space, without penalties. @p numbering and
@@ -54,8 +73,8 @@ namespace mortise
                       unsigned int                 number,
                       const std::vector<Coupling> &couplings);
 
-  /// K of one level, or K + J, for vectors that are zero at constrained
-  /// components.
+  /// K of one level, with the tangents of its linearisation, or K + J, for
+  /// vectors that are zero at constrained components.
   template <typename Number>
   class LevelOperator : public LevelOperatorBase<Number>
   {
@@ -133,9 +152,15 @@ namespace mortise
       return stiffness;
     }
 
+    MatrixFreeElasticity<Number> &
+    elasticity()
+    {
+      return stiffness;
+    }
+
   private:
     const MultigridLevel                   &level;
-    const MatrixFreeElasticity<Number>      stiffness;
+    MatrixFreeElasticity<Number>            stiffness;
     const HangingNodes<Number>              hanging;
     std::unique_ptr<PenaltyProduct<Number>> penalty; ///< null without
   };

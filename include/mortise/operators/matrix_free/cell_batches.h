@@ -6,6 +6,7 @@
 
 #include <mortise/body/spaces/nodal_space.h>
 #include <mortise/material/nonlinear_law.h>
+#include <mortise/material/tangent_form.h>
 
 #include <memory>
 #include <string>
@@ -26,15 +27,14 @@ namespace mortise
     CellBatches() = default;
 
     /// Of the owned cells with one element of a body; @p layout, @p pressures: as
-    /// for MatrixFreeElasticity; @p law: null if linear; @p tangled: what is
-    /// wrong with a cell, if anything.
-    CellBatches(const NodalSpace                           &space,
-                const Body                                 &body,
-                unsigned int                                element,
-                const dealii::Utilities::MPI::Partitioner  &layout,
-                const PressureNodes                        *pressures,
-                std::shared_ptr<const NonlinearLaw<Number>> law,
-                std::string                                &tangled);
+    /// for MatrixFreeElasticity; @p tangled: what is wrong with a cell, if
+    /// anything.
+    CellBatches(const NodalSpace                          &space,
+                const Body                                &body,
+                unsigned int                               element,
+                const dealii::Utilities::MPI::Partitioner &layout,
+                const PressureNodes                       *pressures,
+                std::string                               &tangled);
 
     bool         tetrahedra = false;
     unsigned int degree     = 1;
@@ -61,9 +61,21 @@ namespace mortise
 
     /// Of a body whose law is not linear, else null; all its cells count as
     /// curved.
-    std::shared_ptr<const NonlinearLaw<Number>> nonlinear;
-    /// Its tangent at the points, [batch][point][modulus][lane], else empty.
-    dealii::AlignedVector<Number> moduli;
+    std::shared_ptr<const NonlinearLaw> nonlinear;
+    /// Its tangent at the points, [batch][point][number][lane], else empty: the
+    /// n_tangent() numbers of its form, and in mixed form sqrt(w |J|) and the
+    /// slope of NonlinearLaw::dilatation_of_pressure().
+    dealii::AlignedVector<Number> tangent;
+    /// At finite strain the metric of the tangent, dxi_a/dx_e sqrt(w |J|) with
+    /// deformed coordinates x but the volume |J| of undeformed cells.
+    dealii::AlignedVector<Number> deformed_metric;
+
+    /// Numbers of tangent at a point.
+    unsigned int
+    n_numbers() const
+    {
+      return n_tangent(nonlinear->form()) + (n_pressure_nodes == 0 ? 0 : 2);
+    }
 
     /// Cells of a batch.
     unsigned int

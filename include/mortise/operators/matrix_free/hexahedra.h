@@ -88,7 +88,7 @@ namespace mortise
     {
       constexpr int n9 = dim * dim;
       if constexpr (!affine)
-        fetch_metric(metric + (q + N) * n9);
+        fetch(metric + (q + N) * n9, n9);
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int e = 0; e < dim; ++e)
           G[a][e] = affine ? metric[dim * a + e] * root_weights[q] :

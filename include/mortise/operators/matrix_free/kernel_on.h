@@ -159,14 +159,13 @@ namespace mortise
     };
 
     /// visit(point), by value, so that what it holds stays in registers.
+    /// @p given: the metric of a batch.
     template <bool affine, typename Visit>
     __attribute__((noinline)) void
-    at_points_of(const CellBatches<Number> &cells,
-                 const unsigned int         batch,
-                 const Visit                visit) const
+    at_points_of(const Number *given, const Visit visit) const
     {
       const std::bool_constant<affine> is_affine;
-      const V *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
+      const V      *metric = reinterpret_cast<const V *>(given);
       Point<affine> at{shape, shape.n_points(is_affine), 0, {}};
       for (; at.q < at.n; ++at.q)
         {
@@ -182,9 +181,9 @@ namespace mortise
               const Visit               &visit) const
     {
       if (batch < cells.n_affine)
-        at_points_of<true>(cells, batch, visit);
+        at_points_of<true>(cells.metric_of(batch), visit);
       else
-        at_points_of<false>(cells, batch, visit);
+        at_points_of<false>(cells.metric_of(batch), visit);
     }
 
     Shape                         shape;

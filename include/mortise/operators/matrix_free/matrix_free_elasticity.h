@@ -1,6 +1,7 @@
-// Linear elasticity without a matrix, several cells at once: products by sum
-// factorisation on hexahedra, by dense matrices of the reference cell on
-// tetrahedra. Without constraints and communication.
+// Elasticity without a matrix, several cells at once: internal forces and
+// products with their derivative, by sum factorisation on hexahedra, by dense
+// matrices of the reference cell on tetrahedra. Without constraints and
+// communication.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -14,28 +15,46 @@
 
 namespace mortise
 {
-  /// State of points by group of cells, [batch][point][number][lane]; empty for
-  /// linear laws.
-  template <typename Number>
-  using PointHistory = std::vector<dealii::AlignedVector<Number>>;
+  /// What points remember, by group of cells, [batch][point][number][lane];
+  /// empty for linear laws.
+  using PointHistory = std::vector<dealii::AlignedVector<double>>;
+
+  /// The least determinant of deformation gradients at points, and the cell
+  /// that has it.
+  struct LeastJacobian
+  {
+    double       value = 1.;
+    unsigned int group = 0, batch = 0, lane = 0;
+
+    /// Of the first @p lanes lanes of a batch; what is not a number is least.
+    template <typename Vector>
+    void
+    add(const Vector      &smallest,
+        const unsigned int in_batch,
+        const unsigned int lanes)
+    {
+      for (unsigned int l = 0; l < lanes; ++l)
+        if (!(smallest[l] >= value))
+          {
+            value = smallest[l];
+            batch = in_batch;
+            lane  = l;
+          }
+    }
+  };
 
   template <typename Number>
   class MatrixFreeElasticity
   {
   public:
-    using LawOfBody =
-      std::function<std::shared_ptr<const NonlinearLaw<Number>>(const Body &)>;
-
     /// @p layout: where the components 3 n + c of node n stand in vectors; owned
     /// and relevant ones; @p pressures: what the products in mixed form need.
-    /// @p laws: null for bodies whose law is linear, and for all of them if none
-    /// is given; K is the tangent of others where they were last linearised.
-    /// Bodies in mixed form have linear laws.
+    /// K is the tangent of bodies whose law is not linear where they were last
+    /// linearised.
     /// Collective; throws InputError for a tangled cell.
     MatrixFreeElasticity(const NodalSpace                          &space,
                          const dealii::Utilities::MPI::Partitioner &layout,
-                         const PressureNodes *pressures = nullptr,
-                         const LawOfBody     &laws      = {});
+                         const PressureNodes *pressures = nullptr);
     ~MatrixFreeElasticity();
 
     /// dst += K src, both local with ghost entries, contributions of owned
@@ -47,28 +66,47 @@ namespace mortise
     void
     add_diagonal(Number *dst) const;
 
-    /// History of points that nothing happened to.
-    PointHistory<Number>
-    no_history() const;
-
-    /// dst += f(u), the internal force f_i = int sigma : grad N_i with the
-    /// stress of u after @p before; K u of linear laws. @p after: the history up
-    /// to u, as large as @p before.
-    void
-    add_residual(const Number               *u,
-                 const PointHistory<Number> &before,
-                 PointHistory<Number>       &after,
-                 Number                     *dst) const;
-
-    /// Has K = df/du at u from here on.
-    void
-    linearise(const Number *u, const PointHistory<Number> &before);
-
     /// Of displacements and pressures; the same vector may not stand twice.
     struct Fields
     {
       Number *displacement = nullptr, *pressure = nullptr;
     };
+
+    /// History of points that nothing happened to.
+    PointHistory
+    no_history() const;
+
+    /// dst += f(u, p), the internal force f_i = int P : Grad N_i with the
+    /// nominal stress of u, less p, after @p before, and in mixed form -int
+    /// (dilatation of u - that of p) q; K u, and so on, of linear laws.
+    /// @p thermal_strains: isotropic ones at points that have no stress, F = (1 +
+    /// strain) F_e, or nothing.
+    /// @p after: the history up to u, as large as @p before. Returns the least
+    /// Jacobian of this rank's cells.
+    LeastJacobian
+    add_residual(const Fields       &src,
+                 const PointHistory &before,
+                 PointHistory       &after,
+                 const Fields       &dst,
+                 const PointHistory &thermal_strains = {}) const;
+
+    /// Has K = df/du, and so on, at @p src from here on.
+    void
+    linearise(const Fields       &src,
+              const PointHistory &before,
+              const PointHistory &thermal_strains = {});
+
+    /// By group and cell, dP/dGrad u of laws that are not linear where they
+    /// were last linearised, averaged over the cell; nothing for others.
+    std::vector<std::vector<Moduli>>
+    average_moduli(bool initial_stress = true) const;
+
+    /// Has K of laws that are not linear from the points of @p fine, of the
+    /// same cells and a degree that is not lower, by means with positive
+    /// weights.
+    void
+    take_tangent(const MatrixFreeElasticity<double> &fine,
+                 bool                                initial_stress = true);
 
     /// dst += [K G^T; G -C] src, see BlockSystem.
     void
@@ -140,10 +178,30 @@ namespace mortise
     class Kernel; ///< of one degree
     template <typename Shape>
     class KernelOn;
-    template <typename Shape>
-    class NonlinearKernelOn;
     template <typename Shape, typename Pressures>
     class MixedKernelOn;
+    template <typename Base>
+    class TangentKernelOn;
+    template <typename Base, bool mixed>
+    class NonlinearKernelOn;
+
+    /// Of one group.
+    struct StateOfPoints
+    {
+      const double *history;
+      const double *thermal_strains; ///< or null
+    };
+
+    StateOfPoints
+    state_of(unsigned int        g,
+             const PointHistory &before,
+             const PointHistory &thermal_strains) const
+    {
+      return {before[g].data(),
+              thermal_strains.empty() || thermal_strains[g].empty() ?
+                nullptr :
+                thermal_strains[g].data()};
+    }
 
     /// Of all lanes of a batch of group @p g.
     std::vector<CellMatrix>
@@ -162,6 +220,9 @@ namespace mortise
     template <typename Shape>
     static std::unique_ptr<Kernel>
     make_kernel_on(const CellBatches<Number> &cells);
+    template <typename Shape, typename Pressures>
+    static std::unique_ptr<Kernel>
+    make_mixed_kernel_on(const CellBatches<Number> &cells);
     static std::unique_ptr<Kernel>
     make_kernel(const CellBatches<Number> &cells);
     static std::unique_ptr<Kernel>

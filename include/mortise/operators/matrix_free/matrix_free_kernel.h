@@ -21,19 +21,26 @@ namespace mortise
     add_diagonal(const CellBatches<Number> &cells, Number *dst) = 0;
 
     /// Of linear laws, unless the kernel has others.
-    virtual void
+    virtual LeastJacobian
     add_residual(const CellBatches<Number> &cells,
-                 const Number              *u,
-                 const Number *,
-                 Number *,
-                 Number *dst)
+                 const Fields              &src,
+                 const StateOfPoints &,
+                 double *,
+                 const Fields &dst)
     {
-      add_product(cells, u, dst);
+      add_mixed_product(cells, src, dst);
+      return {};
     }
 
     virtual void
-    linearise(CellBatches<Number> &, const Number *, const Number *)
+    linearise(CellBatches<Number> &, const Fields &, const StateOfPoints &)
     {}
+
+    virtual std::vector<Moduli>
+    average_moduli(const CellBatches<Number> &, bool)
+    {
+      return {};
+    }
 
     /// Of displacements alone, unless the kernel has pressures.
     virtual void

@@ -104,7 +104,7 @@ namespace mortise
         }
     }
 
-  private:
+  protected:
     V *
     at_nodes()
     {
@@ -141,6 +141,7 @@ namespace mortise
       scatter_add<M, 1>(at_nodes(), cells.pressure_nodes_of(batch), dst);
     }
 
+  private:
     void
     multiply_by_norm(const CellBatches<Number> &cells,
                      const unsigned int         batch,

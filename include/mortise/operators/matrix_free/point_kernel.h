@@ -12,11 +12,11 @@ namespace mortise
   /// degree 2 to 5 are multiplied a fifth to a half faster, tetrahedra a sixth.
   template <typename V>
   inline __attribute__((always_inline)) void
-  fetch_metric(const V *G)
+  fetch(const V *numbers, const unsigned int n)
   {
     constexpr int line = 64;
-    for (unsigned int byte = 0; byte < 9 * sizeof(V); byte += line)
-      __builtin_prefetch(reinterpret_cast<const char *>(G) + byte, 0, 2);
+    for (unsigned int byte = 0; byte < n * sizeof(V); byte += line)
+      __builtin_prefetch(reinterpret_cast<const char *>(numbers) + byte, 0, 2);
   }
 
   /// sqrt(w |J|) times grad u, du_c/dx_e as h[c][e]. @p g: gradients with
@@ -46,42 +46,6 @@ namespace mortise
         g[(3 * c + a) * stride] =
           s[c][0] * G[a][0] + s[c][1] * G[a][1] + s[c][2] * G[a][2];
   }
-
-  /// A tangent at one point, see NonlinearLaw::tangent().
-  template <typename Number>
-  struct TangentLaw
-  {
-    const typename Batch<Number>::Vector *moduli;
-
-    template <typename State, typename V>
-    inline __attribute__((always_inline)) void
-    tangent(const State &, const V (&h)[3][3], V (&s)[3][3]) const
-    {
-      const V  strain[6] = {h[0][0],
-                            h[1][1],
-                            h[2][2],
-                            h[1][2] + h[2][1],
-                            h[2][0] + h[0][2],
-                            h[0][1] + h[1][0]};
-      V        sum[6]    = {};
-      unsigned k         = 0;
-#pragma GCC unroll 6
-      for (unsigned int i = 0; i < 6; ++i)
-#pragma GCC unroll 6
-        for (unsigned int j = i; j < 6; ++j, ++k)
-          {
-            sum[i] += moduli[k] * strain[j];
-            if (j > i)
-              sum[j] += moduli[k] * strain[i];
-          }
-      for (unsigned int c = 0; c < 3; ++c)
-        {
-          const unsigned int a = (c + 1) % 3, b = (c + 2) % 3;
-          s[c][c] = sum[c];
-          s[a][b] = s[b][a] = sum[3 + c];
-        }
-    }
-  };
 
   /// det(G) of a metric.
   template <typename V>

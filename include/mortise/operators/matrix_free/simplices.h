@@ -115,7 +115,7 @@ namespace mortise
         for (unsigned int e = 0; e < dim; ++e)
           G[a][e] = metric[dim * a + e];
       if (!affine)
-        fetch_metric(metric + n_curved * dim * dim);
+        fetch(metric + n_curved * dim * dim, dim * dim);
     }
 
     /// det(G) is less than zero where vertices ascend the other way round.

@@ -41,6 +41,8 @@ namespace mortise
   struct BoundaryParameters
   {
     std::optional<std::string> pressure;
+    /// Absent: where the body has finite strains.
+    std::optional<bool>        pressure_follows;
     std::optional<Components>  traction;
     std::optional<Components>  force, moment; ///< totals
     std::optional<Components>  displacement;

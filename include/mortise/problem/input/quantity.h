@@ -39,4 +39,9 @@ namespace mortise
   /// requires.
   Parameters
   with_tolerance(Parameters parameters);
+
+  /// In a scene with nonlinear laws and without steps: one step in which loads
+  /// grow from zero, and which may be cut.
+  Parameters
+  with_ramp(Parameters parameters);
 } // namespace mortise

@@ -13,6 +13,10 @@ namespace mortise
     std::vector<double>   step; ///< one length, or the times at which steps end
     unsigned int          output_every  = 1; ///< of these times
     double                smallest_step = 1e-3;
+    std::optional<double> largest_step; ///< a time
+    /// Do loads grow in proportion to t, from zero at the start to their values
+    /// at time 1? No entry of a file.
+    bool ramp = false;
 
     /// If not, there is one step at time 1, and results have no times.
     bool

@@ -31,11 +31,17 @@ namespace mortise
                    const std::vector<BodySolution> &solutions);
 
     /// Force and moment about @p point on body @p body across @p boundary, of
-    /// loads, supports and interfaces there. Collective.
+    /// loads, supports and interfaces there; forces act at deformed positions
+    /// if the body has finite strains. Collective.
     ForceAndMoment
     on(unsigned int               body,
        dealii::types::boundary_id boundary,
        const dealii::Point<dim>  &point) const;
+
+    /// What the displacement of a slave with finite strains adds to the moment
+    /// that interface @p i carries to the master. Collective.
+    dealii::Tensor<1, dim>
+    moment_of_displacement(unsigned int i) const;
 
     /// Sums of loads and reactions. Collective.
     EquilibriumSummary

@@ -15,6 +15,7 @@ namespace mortise
     const SceneData    &data;
     const SceneLoad    &load;
     const SystemVector &solution;
+    const PointHistory &history; ///< see State
     const SolvedContact contact;
     /// By interface, the shortening of its preload, a length.
     const std::vector<double> shortenings;

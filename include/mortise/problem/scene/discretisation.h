@@ -60,6 +60,36 @@ namespace mortise
     void
     update_penalties(const std::vector<NodeStatus> &statuses);
 
+    /// See BulkSystem::linearise(). LinearSolver::update() must follow if
+    /// preconditioners are to change. Collective.
+    void
+    linearise(const SystemVector &x,
+              const PointHistory &before,
+              const SceneLoad    &load,
+              const bool          preconditioners)
+    {
+      system.bulk->linearise(x.displacement,
+                             x.pressure,
+                             before,
+                             load.thermal_strains_at_points,
+                             load.follower_pressures.get(),
+                             preconditioners);
+    }
+
+    /// See BulkSystem::show_tangent(). LinearSolver::update() must follow.
+    void
+    show_tangent(const bool initial_stress)
+    {
+      system.bulk->show_tangent(initial_stress);
+    }
+
+    /// See BulkSystem::note_negative_direction().
+    void
+    note_negative_direction()
+    {
+      system.bulk->note_negative_direction();
+    }
+
     /// By owned multiplier: the weighted gap of @p x, a volume; tangential
     /// components are negative slips. @p load: of the same time. Collective.
     Vector

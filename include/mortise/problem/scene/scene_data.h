@@ -73,6 +73,7 @@ namespace mortise
 
   private:
     const Parameters                    &parameters;
+    const double                         factor; ///< of all that acts
     const double                         time;
     FieldChecks                         &checks;
     std::shared_ptr<const ExactSolution> solution;

@@ -1,0 +1,71 @@
+// Deformation at one point of several cells from h[i][j] = du_i/dX_j, without
+// cancellation where it is small.
+#pragma once
+
+#include <mortise/base/batch_math.h>
+
+namespace mortise
+{
+  template <typename V>
+  inline V
+  determinant(const V (&a)[3][3])
+  {
+    return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
+           a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+           a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+  }
+
+  /// J - 1 = tr h + (second invariant of h) + det h.
+  template <typename V>
+  inline V
+  dilatation(const V (&h)[3][3])
+  {
+    V sum = h[0][0] + h[1][1] + h[2][2] + determinant(h);
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const unsigned int j = (i + 1) % 3;
+        sum += h[i][i] * h[j][j] - h[i][j] * h[j][i];
+      }
+    return sum;
+  }
+
+  /// @p inverse: F^{-1} of F = I + h, with J = det F.
+  template <typename V>
+  inline void
+  invert_gradient(const V (&h)[3][3], const V &J, V (&inverse)[3][3])
+  {
+    V F[3][3];
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        F[i][j] = i == j ? 1. + h[i][j] : h[i][j];
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        {
+          const unsigned int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3,
+                             d = (j + 2) % 3;
+          // the transposed cofactor
+          inverse[j][i] = (F[a][c] * F[b][d] - F[a][d] * F[b][c]) / J;
+        }
+  }
+
+  /// Eigenvalues @p value and, as columns of @p axes, eigenvectors of the
+  /// symmetric @p a, which is used up, by Jacobi's rotations.
+  void eigensystem(DoubleBatch (&a)[3][3],
+                   DoubleBatch (&value)[3],
+                   DoubleBatch (&axes)[3][3]);
+
+  /// C - I = h + h^T + h^T h of C = F^T F.
+  template <typename V>
+  inline void
+  right_strain(const V (&h)[3][3], V (&strain)[3][3])
+  {
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = i; j < 3; ++j)
+        {
+          V sum = h[i][j] + h[j][i];
+          for (unsigned int k = 0; k < 3; ++k)
+            sum += h[k][i] * h[k][j];
+          strain[i][j] = strain[j][i] = sum;
+        }
+  }
+} // namespace mortise

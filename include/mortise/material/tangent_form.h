@@ -1,0 +1,132 @@
+// The forms of tangents that kernels are compiled for.
+#pragma once
+
+#include <mortise/base/batch.h>
+
+namespace mortise
+{
+  enum class TangentForm
+  {
+    /// s = lambda' tr(e) I + 2 mu' e + grad du tau at finite strain: mu',
+    /// lambda'.
+    isotropic_finite,
+    /// s = lambda' tr(e) I + 2 mu' e - (n : e) n at small strain: mu', lambda',
+    /// n as xx, yy, zz, yz, zx, xy.
+    rank_one,
+    /// s = C e at small strain: the upper triangle of C as that of
+    /// AnisotropicLaw, row by row.
+    full,
+    /// s = C e + grad du tau at finite strain.
+    full_finite
+  };
+
+  constexpr bool
+  is_finite(const TangentForm form)
+  {
+    return form == TangentForm::isotropic_finite ||
+           form == TangentForm::full_finite;
+  }
+
+  constexpr unsigned int
+  n_moduli(const TangentForm form)
+  {
+    return form == TangentForm::isotropic_finite ? 2 :
+           form == TangentForm::rank_one         ? 8 :
+                                                   21;
+  }
+
+  /// Numbers that a kernel needs of a point beside the metric: the moduli, and
+  /// at finite strain tau as xx, yy, zz, yz, zx, xy.
+  constexpr unsigned int
+  n_tangent(const TangentForm form)
+  {
+    return n_moduli(form) + (is_finite(form) ? 6 : 0);
+  }
+
+  /// A tangent at one point of several cells.
+  template <typename Number, TangentForm form>
+  struct TangentAt
+  {
+    const typename Batch<Number>::Vector *data;
+
+    /// @p h: the gradient of du, with respect to deformed coordinates at finite
+    /// strain.
+    template <typename State, typename V>
+    inline __attribute__((always_inline)) void
+    tangent(const State &, const V (&h)[3][3], V (&s)[3][3]) const
+    {
+      if constexpr (form == TangentForm::isotropic_finite ||
+                    form == TangentForm::rank_one)
+        {
+          const V mean = data[1] * (h[0][0] + h[1][1] + h[2][2]);
+          for (unsigned int c = 0; c < 3; ++c)
+            for (unsigned int e = c; e < 3; ++e)
+              s[c][e] = s[e][c] = data[0] * (h[c][e] + h[e][c]);
+          for (unsigned int c = 0; c < 3; ++c)
+            s[c][c] += mean;
+          if constexpr (form == TangentForm::rank_one)
+            subtract_rank_one(h, s);
+        }
+      else
+        full_product(h, s);
+      if constexpr (is_finite(form))
+        {
+          const V *t         = data + n_moduli(form);
+          const V  tau[3][3] = {{t[0], t[5], t[4]},
+                                {t[5], t[1], t[3]},
+                                {t[4], t[3], t[2]}};
+          for (unsigned int c = 0; c < 3; ++c)
+            for (unsigned int e = 0; e < 3; ++e)
+              s[c][e] +=
+                h[c][0] * tau[0][e] + h[c][1] * tau[1][e] + h[c][2] * tau[2][e];
+        }
+    }
+
+  private:
+    template <typename V>
+    inline __attribute__((always_inline)) void
+    subtract_rank_one(const V (&h)[3][3], V (&s)[3][3]) const
+    {
+      const V *n     = data + 2;
+      const V  along = n[0] * h[0][0] + n[1] * h[1][1] + n[2] * h[2][2] +
+                      n[3] * (h[1][2] + h[2][1]) + n[4] * (h[2][0] + h[0][2]) +
+                      n[5] * (h[0][1] + h[1][0]);
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          const unsigned int a = (c + 1) % 3, b = (c + 2) % 3;
+          s[c][c] -= along * n[c];
+          s[a][b] -= along * n[3 + c];
+          s[b][a] = s[a][b];
+        }
+    }
+
+    template <typename V>
+    inline __attribute__((always_inline)) void
+    full_product(const V (&h)[3][3], V (&s)[3][3]) const
+    {
+      const V  strain[6] = {h[0][0],
+                            h[1][1],
+                            h[2][2],
+                            h[1][2] + h[2][1],
+                            h[2][0] + h[0][2],
+                            h[0][1] + h[1][0]};
+      V        sum[6]    = {};
+      unsigned k         = 0;
+#pragma GCC unroll 6
+      for (unsigned int i = 0; i < 6; ++i)
+#pragma GCC unroll 6
+        for (unsigned int j = i; j < 6; ++j, ++k)
+          {
+            sum[i] += data[k] * strain[j];
+            if (j > i)
+              sum[j] += data[k] * strain[i];
+          }
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          const unsigned int a = (c + 1) % 3, b = (c + 2) % 3;
+          s[c][c] = sum[c];
+          s[a][b] = s[b][a] = sum[3 + c];
+        }
+    }
+  };
+} // namespace mortise

@@ -1,0 +1,96 @@
+// One load step of a scene with laws of material that are not linear, as
+// Newton's method sees it. Prescribed displacements are a part of the unknowns:
+// what is left of them to the end of the step is lifted into the bodies by the
+// tangent, since cells beside boundaries that move alone would invert. Contact
+// is not known here.
+#pragma once
+
+#include <mortise/problem/input/run_context.h>
+#include <mortise/problem/scene/discretisation.h>
+#include <mortise/problem/state.h>
+#include <mortise/solvers/linear_solver.h>
+#include <mortise/solvers/newton.h>
+#include <mortise/solvers/scaled_residual.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  class NonlinearStep : private NonlinearProblem
+  {
+  public:
+    /// References must live on.
+    NonlinearStep(const RunContext &run,
+                  Discretisation   &discretisation,
+                  LinearSolver     &solver);
+
+    /// Solve for @p load from @p last on and set the solution, displacement and
+    /// history of @p next; those of the best iterate if the report says that
+    /// Newton's method did not converge. Linear solves are as loose as the next
+    /// residual allows (Eisenstat, Walker 1996). The forces of pressures on
+    /// deformed faces become part of the external ones of @p load. Collective.
+    SolveReport
+    solve(SceneLoad &load, const State &last, State &next);
+
+    /// Set the displacement and history of @p state to those of @p values, whose
+    /// solution it has and @p load belongs to. Collective.
+    void
+    resume(const SceneLoad   &load,
+           const SceneValues &values,
+           State             &state) const;
+
+    /// Of the last solve().
+    const NewtonReport &
+    report() const
+    {
+      return newton;
+    }
+
+    /// Why the last solve() did not converge, in words.
+    const std::string &
+    reason() const
+    {
+      return why;
+    }
+
+  private:
+    double
+    residual(const SystemVector &x) override;
+    void
+    linearise(const SystemVector &x) override;
+    SolveReport
+    solve(SystemVector &x) override;
+    /// r less the forces of what is left of prescribed displacements.
+    SystemVector
+    lifted(const Vector &rest) const;
+    /// What rounding leaves of the residual of @p x.
+    double
+    attainable(SystemVector x) const;
+    /// What is left of prescribed displacements.
+    Vector
+    rest_of_prescribed(const SystemVector &x) const;
+    void
+    print(unsigned int iteration, double residual) const;
+
+    const RunContext &run;
+    Discretisation   &discretisation;
+    LinearSolver     &solver;
+    /// Indices of owned components that are prescribed.
+    std::vector<unsigned int>       prescribed;
+    std::unique_ptr<ScaledResidual> norm;
+
+    // of the present step
+    const SceneLoad     *load = nullptr;
+    PointHistory         before;
+    BulkSystem::Response response;            ///< to the last iterate
+    SystemVector         r;                   ///< forces that are left at it
+    double               reference = 0.;      ///< size of forces
+    double       size = 0., size_before = 0.; ///< of iterates' residuals
+    double       forcing         = 0.;        ///< of the last linear solve
+    unsigned int last_iterations = 0, fewest_iterations = 0;
+    NewtonReport newton;
+    std::string  why;
+  };
+} // namespace mortise

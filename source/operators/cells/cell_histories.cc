@@ -1,0 +1,104 @@
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <mortise/body/elements/simplex_elements.h>
+#include <mortise/body/elements/simplex_nodes.h>
+#include <mortise/operators/cells/cell_histories.h>
+#include <mortise/operators/matrix_free/simplex_tables.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  Quadrature<dim>
+  points_of_forces(const Body &body, const unsigned int element)
+  {
+    const unsigned int degree = body.fe[element].degree;
+    if (!body.mesh.tetrahedra)
+      return QGauss<dim>(degree + 1);
+    // the same barycentric coordinates by ascending vertices in all cells
+    const auto           &order = SimplexElements::base(body.fe[element]).order;
+    const Quadrature<dim> all   = simplex_rule<double>(degree);
+    std::vector<Point<dim>> points;
+    for (const Point<dim> &ascending : all.get_points())
+      {
+        const auto                  lambda = barycentric_coordinates(ascending);
+        std::array<double, dim + 1> local{};
+        for (unsigned int v = 0; v <= dim; ++v)
+          local[order[v]] = lambda[v];
+        points.emplace_back(local[1], local[2], local[3]);
+      }
+    return {points, all.get_weights()};
+  }
+
+  namespace
+  {
+    /// Products of Legendre polynomials up to @p degree in each direction, or in
+    /// all on tetrahedra, at @p points: entry (point, function).
+    FullMatrix<double>
+    polynomials(const std::vector<Point<dim>> &points,
+                const unsigned int             degree,
+                const bool                     tetrahedra)
+    {
+      const auto legendre =
+        Polynomials::Legendre::generate_complete_basis(degree);
+      std::vector<std::array<unsigned int, dim>> functions;
+      for (unsigned int i = 0; i <= degree; ++i)
+        for (unsigned int j = 0; j <= degree; ++j)
+          for (unsigned int k = 0; k <= degree; ++k)
+            if (!tetrahedra || i + j + k <= degree)
+              functions.push_back({{i, j, k}});
+      FullMatrix<double> result(points.size(), functions.size());
+      for (unsigned int q = 0; q < points.size(); ++q)
+        for (unsigned int f = 0; f < functions.size(); ++f)
+          {
+            result(q, f) = 1.;
+            for (unsigned int d = 0; d < dim; ++d)
+              result(q, f) *= legendre[functions[f][d]].value(points[q][d]);
+          }
+      return result;
+    }
+  } // namespace
+
+  FullMatrix<double>
+  HistoryValues::projection(const unsigned int element) const
+  {
+    const Quadrature<dim> from = points_of_forces(body, element);
+    const unsigned int    degree =
+      std::max(1u, static_cast<unsigned int>(body.fe[element].degree) - 1);
+    const FullMatrix<double> there =
+      polynomials(from.get_points(), degree, body.mesh.tetrahedra);
+    const FullMatrix<double> here =
+      polynomials(rule.get_points(), degree, body.mesh.tetrahedra);
+    FullMatrix<double> weighted(there), mass(there.n()),
+      coefficients(there.n(), there.m()), result(here.m(), there.m());
+    for (unsigned int q = 0; q < there.m(); ++q)
+      for (unsigned int f = 0; f < there.n(); ++f)
+        weighted(q, f) *= from.weight(q);
+    there.Tmmult(mass, weighted);
+    mass.gauss_jordan();
+    mass.mTmult(coefficients, weighted);
+    here.mmult(result, coefficients);
+    return result;
+  }
+
+  std::vector<double>
+  HistoryValues::evaluate(const Body::CellIterator  &cell,
+                          const std::vector<double> &history)
+  {
+    const unsigned int element = cell->active_fe_index();
+    auto               found   = by_element.find(element);
+    if (found == by_element.end())
+      found = by_element.emplace(element, projection(element)).first;
+    const FullMatrix<double> &matrix = found->second;
+    const unsigned int        n      = history.size() / matrix.n();
+    std::vector<double>       result(matrix.m() * n, 0.);
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      for (unsigned int q = 0; q < matrix.n(); ++q)
+        for (unsigned int k = 0; k < n; ++k)
+          result[i * n + k] += matrix(i, q) * history[q * n + k];
+    return result;
+  }
+} // namespace mortise

@@ -1,0 +1,303 @@
+#include <mortise/problem/nonlinear_step.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Of the residual of a linear solve, see doc/measurements/nonlinear.md.
+    constexpr double loosest_solve = 0.01;
+
+    /// Of one linear solve; what it has reached then may serve all the same.
+    constexpr unsigned int most_linear_iterations = 100;
+    constexpr double       fair_solve             = 0.5;
+
+    constexpr unsigned int most_newton_iterations = 50, most_rises = 20;
+
+    /// Residuals that are larger are no rounding.
+    constexpr double largest_rounding = 1e-6;
+
+    void
+    warn_of_kept_normals(const RunContext     &run,
+                         const Discretisation &discretisation)
+    {
+      std::set<std::string> named;
+      for (const InterfaceParameters &interface :
+           discretisation.interfaces().sides())
+        if (!interface.is_support &&
+            (interface.law == Law::slide || interface.law == Law::spring) &&
+            is_finite(run.parameters.bodies[interface.slave.body].material) &&
+            named.insert(interface.name).second)
+          run.log.warning(
+            "interface " + interface.name +
+            ": Law = " + name_of(interface.law) +
+            " keeps the normals of the undeformed bodies, and is wrong where they turn or slide far");
+    }
+
+    /// Relative to the forces of a step.
+    constexpr double largest_residual = 1e3;
+
+    /// Preconditioners are made again where this many times the fewest
+    /// iterations are needed.
+    constexpr double most_iterations = 1.3;
+  } // namespace
+
+  NonlinearStep::NonlinearStep(const RunContext &run,
+                               Discretisation   &discretisation,
+                               LinearSolver     &solver)
+    : run(run)
+    , discretisation(discretisation)
+    , solver(solver)
+  {
+    const MultigridLevel &level =
+      discretisation.linear_system().bulk->levels().front();
+    for (const unsigned int i : level.constrained)
+      if (!level.space->hanging_nodes().is_constrained(
+            level.layout->local_to_global(i) / dim))
+        prescribed.push_back(i);
+    warn_of_kept_normals(run, discretisation);
+  }
+
+  Vector
+  NonlinearStep::rest_of_prescribed(const SystemVector &x) const
+  {
+    Vector rest;
+    discretisation.linear_system().bulk->initialize(rest);
+    for (const unsigned int i : prescribed)
+      rest.local_element(i) = load->prescribed_at_nodes.local_element(i) -
+                              x.displacement.local_element(i);
+    return rest;
+  }
+
+  SystemVector
+  NonlinearStep::lifted(const Vector &rest) const
+  {
+    SystemVector result = r;
+    if (rest.linfty_norm() == 0.)
+      return result;
+    SystemVector forces = discretisation.linear_system().zero_vector();
+    discretisation.linear_system().apply_to_constrained(rest, forces);
+    add_scaled(result, -1., forces);
+    return result;
+  }
+
+  void
+  NonlinearStep::resume(const SceneLoad   &given,
+                        const SceneValues &values,
+                        State             &state) const
+  {
+    const BulkSystem &bulk = *discretisation.linear_system().bulk;
+    state.displacement     = state.solution.displacement;
+    state.displacement += given.prescribed_at_nodes;
+    const auto &hanging = bulk.levels().front().space->hanging_nodes();
+    for (const unsigned int i : bulk.levels().front().constrained)
+      if (hanging.is_constrained(
+            bulk.levels().front().layout->local_to_global(i) / dim))
+        state.displacement.local_element(i) = 0.;
+    std::vector<CellHistories> histories;
+    for (const BodySolution &of_body : values.solutions)
+      histories.push_back(of_body.history);
+    state.history = bulk.by_point(histories);
+  }
+
+  double
+  NonlinearStep::residual(const SystemVector &x)
+  {
+    const BlockSystem &system = discretisation.linear_system();
+    response                  = system.bulk->respond(x.displacement,
+                                    x.pressure,
+                                    before,
+                                    load->thermal_strains_at_points);
+    if (!(response.least_jacobian > 0.))
+      {
+        why =
+          "a cell inverts: " +
+          system.bulk->place_of_least_jacobian(x.displacement,
+                                               x.pressure,
+                                               before,
+                                               load->thermal_strains_at_points);
+        return std::numeric_limits<double>::infinity();
+      }
+    r              = system.zero_vector();
+    r.displacement = load->external;
+    r.displacement -= response.forces;
+    if (load->follower_pressures)
+      r.displacement +=
+        system.bulk->forces_of(*load->follower_pressures, x.displacement);
+    if (system.mixed())
+      {
+        r.pressure = load->rhs.pressure;
+        r.pressure -= response.dilatation;
+        system.free_pressures.project_residual(r.pressure);
+      }
+    if (r.multiplier.size() > 0)
+      {
+        Vector forces(r.displacement);
+        forces = 0.;
+        system.add_multiplier_force(forces, x.multiplier);
+        r.displacement -= forces;
+        system.constraint.vmult_free(r.multiplier, x.displacement);
+        r.multiplier.sadd(-1., 1., load->rhs.multiplier);
+        Vector opening(r.multiplier);
+        opening = 0.;
+        system.subtract_spring_opening(opening, x.multiplier);
+        r.multiplier -= opening;
+      }
+    for (const unsigned int i : system.bulk->levels().front().constrained)
+      r.displacement.local_element(i) = 0.;
+    const Vector rest     = rest_of_prescribed(x);
+    const double reached  = norm->norm(lifted(rest));
+    const bool   is_first = reference == 0.;
+    if (is_first)
+      {
+        const double energy = std::fabs(response.forces * x.displacement);
+        reference           = std::max(reached, std::sqrt(energy));
+      }
+    size                   = reached == 0. ? 0. : reached / reference;
+    const double tolerance = run.parameters.solver.tolerance;
+    if (size > tolerance && (is_first || size < largest_rounding) &&
+        reached <= attainable(x))
+      size = tolerance;
+    // a body that is prescribed as a whole has no forces that could be left
+    if (rest.linfty_norm() > 0.)
+      size = std::max(size, 2. * tolerance);
+    return size;
+  }
+
+  double
+  NonlinearStep::attainable(SystemVector x) const
+  {
+    SystemVector rhs = discretisation.linear_system().zero_vector();
+    rhs.displacement = load->external;
+    for (const unsigned int i :
+         discretisation.linear_system().bulk->levels().front().constrained)
+      rhs.displacement.local_element(i) = x.displacement.local_element(i) = 0.;
+    return norm->attainable(rhs, x);
+  }
+
+  void
+  NonlinearStep::linearise(const SystemVector &x)
+  {
+    const bool refresh = fewest_iterations == 0 || !solver.is_ready() ||
+                         last_iterations > most_iterations * fewest_iterations;
+    discretisation.linearise(x, before, *load, refresh);
+    if (!refresh)
+      return;
+    solver.update();
+    if (!solver.is_ready())
+      {
+        discretisation.show_tangent(false);
+        solver.update();
+      }
+    norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
+    fewest_iterations = 0;
+  }
+
+  SolveReport
+  NonlinearStep::solve(SystemVector &x)
+  {
+    // choice 2 of Eisenstat and Walker
+    const double ratio = size_before > 0. ? size / size_before : 1.;
+    double       eta   = std::min(loosest_solve, 0.9 * ratio * ratio);
+    if (0.9 * forcing * forcing > 0.1)
+      eta = std::max(eta, 0.9 * forcing * forcing);
+    eta         = std::max(eta, 0.3 * run.parameters.solver.tolerance / size);
+    eta         = std::min(eta, loosest_solve);
+    forcing     = eta;
+    size_before = size;
+
+    const Vector     rest            = rest_of_prescribed(x);
+    constexpr double energy_fraction = 3.; // of what another solve improves
+    solver.set_limits(eta,
+                      energy_fraction,
+                      std::min(most_linear_iterations,
+                               run.parameters.solver.max_iterations));
+    const SystemVector forces = lifted(rest);
+    SystemVector       dx;
+    SolveReport        report = solver.solve(forces, dx);
+    if (!report.converged && !discretisation.linear_system().mixed() &&
+        discretisation.linear_system().suits_conjugate_gradients())
+      {
+        // they stop at a negative direction
+        discretisation.note_negative_direction();
+        const unsigned int before_that = report.iterations;
+        report                         = solver.solve(forces, dx);
+        report.iterations += before_that;
+      }
+    if (!report.converged && report.relative_residual < fair_solve)
+      report.converged = true;
+    add_scaled(x, 1., dx);
+    for (const unsigned int i : prescribed) // without rounding
+      x.displacement.local_element(i) =
+        load->prescribed_at_nodes.local_element(i);
+    last_iterations = report.iterations;
+    if (fewest_iterations == 0)
+      fewest_iterations = std::max(1u, last_iterations);
+    fewest_iterations =
+      std::min(fewest_iterations, std::max(1u, last_iterations));
+    if (!report.converged)
+      why = "the linear solver does not converge";
+    return report;
+  }
+
+  void
+  NonlinearStep::print(const unsigned int iteration, const double reached) const
+  {
+    run.log.line("    Newton " + std::to_string(iteration) + "  residual " +
+                 RunLog::number(reached) + "  linear iterations " +
+                 std::to_string(last_iterations));
+  }
+
+  SolveReport
+  NonlinearStep::solve(SceneLoad &given, const State &last, State &next)
+  {
+    const BlockSystem &system = discretisation.linear_system();
+    load                      = &given;
+    before    = last.history.empty() ? system.bulk->no_history() : last.history;
+    reference = size = size_before = forcing = 0.;
+    why                                      = "Newton's method stagnates";
+    if (!norm)
+      norm = std::make_unique<ScaledResidual>(system);
+    SystemVector x = system.zero_vector();
+    if (last.displacement.size() > 0)
+      {
+        x              = last.solution;
+        x.displacement = last.displacement;
+      }
+    NewtonOptions options;
+    options.tolerance      = run.parameters.solver.tolerance;
+    options.max_iterations = most_newton_iterations;
+    options.accepted       = largest_residual;
+    options.patience       = most_rises;
+    options.monitor = [this](const unsigned int k, const double reached) {
+      print(k, reached);
+    };
+    newton = solve_newton(*this, options, x);
+    if (!newton.converged)
+      fewest_iterations = 0; // preconditioners are of a state that is left
+
+    if (given.follower_pressures)
+      given.external +=
+        system.bulk->forces_of(*given.follower_pressures, x.displacement);
+    next.displacement = x.displacement;
+    next.history      = response.history;
+    next.solution     = x;
+    next.solution.displacement -= load->prescribed_at_nodes;
+    for (const unsigned int i : system.bulk->levels().front().constrained)
+      next.solution.displacement.local_element(i) = 0.;
+
+    SolveReport report       = newton.linear;
+    report.iterations        = newton.linear_iterations;
+    report.relative_residual = newton.residual;
+    report.attainable        = 0.;
+    report.tolerance         = options.tolerance;
+    report.converged         = newton.converged;
+    return report;
+  }
+} // namespace mortise
