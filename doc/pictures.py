@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Render the fields of a scene: pictures.py RESULT_DIRECTORY PICTURE.png
 
-Every body is drawn deformed (displacements scaled so that they show), coloured by the magnitude of
+Every body is drawn deformed (displacements scaled so that they show, unless they are as large as the bodies), coloured by the magnitude of
 the displacement, or in a run with a target error by the degree of its cells, with the edges of cells; bodies are pulled apart a little so that the tied
 faces can be seen. Needs pyvista (PyPI)."""
 import glob
@@ -25,13 +25,13 @@ def moments(directory, name):
     return [(os.path.join(directory, file), f"t = {time:g}") for time, file in (half, entries[-1])]
 
 
-def draw(plotter, meshes, size, largest, degrees):
+def draw(plotter, meshes, size, largest, degrees, magnified):
     scalars, limits, title = ("degree", degrees, "degree") if degrees else ("displacement magnitude", (0, largest), "|u|")
     middle = numpy.mean([m.center for m in meshes], axis=0)
     for mesh in meshes:
         mesh["displacement magnitude"] = numpy.linalg.norm(mesh["displacement"], axis=1)
         apart = 0.5 * (numpy.array(mesh.center) - middle) if len(meshes) > 1 else numpy.zeros(3)
-        mesh.points = mesh.points + 0.08 * size / largest * mesh["displacement"] + apart
+        mesh.points = mesh.points + (0.08 * size / largest if magnified else 1.0) * mesh["displacement"] + apart * magnified
         surface = mesh.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=3)
         plotter.add_mesh(surface, scalars=scalars, clim=limits, cmap="viridis",
                          ambient=0.45, diffuse=0.6, scalar_bar_args={"title": title, "color": "black", "fmt": "%.3g", "vertical": True,
@@ -60,7 +60,7 @@ def main(directory, picture):
     plotter.set_background("white")
     for column, meshes in enumerate(scenes):
         plotter.subplot(0, column)
-        draw(plotter, meshes, size, largest, degrees)
+        draw(plotter, meshes, size, largest, degrees, largest < 0.2 * size)
         if files[0][column][1]:
             plotter.add_text(files[0][column][1], color="black", font_size=14)
     plotter.screenshot(picture)

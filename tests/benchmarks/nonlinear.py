@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+"""nonlinear.py BENCHMARK_NONLINEAR MORTISE: write the tables of doc/measurements/nonlinear.md that stand below its
+mark: products with tangents beside Hooke's, and Newton's method on the scenes of prm/ with nonlinear laws."""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+PAGE = os.path.join(TOP, "doc", "measurements", "nonlinear.md")
+MARK = "<!-- tables -->\n"
+SCENES = ["balloon", "torsion", "cantilever_large", "column", "autofrettage"]
+
+CUBE = """set Bodies = cube
+subsection Body cube
+  set Degree = 4
+  subsection Mesh
+    set Source       = box
+    set Extent       = 0, 0, 0, 1, 1, 1
+    set Subdivisions = {n}, {n}, {n}
+  end
+  subsection Material
+    set Law           = neo-Hookean
+    set Young modulus = 1
+    set Poisson ratio = 0.3
+  end
+  subsection Boundary zmin
+    set Displacement = 0, 0, 0
+  end
+  subsection Boundary zmax
+    set Displacement = 0, 0, 0.5 * t
+  end
+end
+subsection Steps
+  set Step = 0.2
+  set End time = 1
+end
+subsection Output
+  set Fields =
+end
+"""
+
+
+def run(command):
+    begin = time.time()
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{' '.join(command)}: {done.stdout[-500:]}{done.stderr}")
+    return done.stdout, time.time() - begin
+
+
+def products(program):
+    rows = ["| cells | p | law | Hooke, ns | product | single | residual | linearise | levels |", "|---|---|---|---|---|---|---|---|---|"]
+    for line in run([program])[0].splitlines():
+        words = line.split()
+        cells, p, law, numbers = words[0], words[1], " ".join(words[3:-6]), words[-6:]
+        rows.append(f"| {cells} | {p} | {law} | " + " | ".join(numbers) + " |")
+    return rows
+
+
+def scene_row(name, output, seconds):
+    steps = json.load(open(os.path.join(output, "summary.json")))
+    newton = [s["solver"]["newton_iterations"] for s in steps["steps"]]
+    linear = sum(s["solver"]["linear_iterations"] for s in steps["steps"])
+    dofs = steps["steps"][0]["dofs"]["total"]
+    memory = steps["memory_mib"]["peak_max_rank"]
+    return f"| {name} | {dofs} | {len(newton)} | {sum(newton)} | {max(newton)} | {linear / sum(newton):.1f} | {seconds:.1f} | {memory:.0f} |"
+
+
+def scenes(program):
+    rows = ["| scene | unknowns | steps | Newton | most in a step | linear iterations each | seconds | MiB per rank |", "|---|---|---|---|---|---|---|---|"]
+    with tempfile.TemporaryDirectory() as work:
+        for name in SCENES:
+            output = os.path.join(work, name)
+            _, seconds = run([program, "--output", output, "--set", "Output/Fields=", os.path.join(TOP, "prm", name + ".prm")])
+            rows.append(scene_row("`" + name + "`", output, seconds))
+        for n, ranks in ((8, 1), (17, 2)):
+            file = os.path.join(work, f"cube{n}.prm")
+            open(file, "w").write(CUBE.format(n=n))
+            output = os.path.join(work, f"cube{n}")
+            _, seconds = run([os.path.join(TOP, "tests", "mpi.sh"), str(ranks), program, "--output", output, file])
+            rows.append(scene_row(f"cube, p = 4, {n}^3 cells, stretched by 50 %, {ranks} rank{'s' * (ranks > 1)}", output, seconds))
+    return rows
+
+
+def main(benchmark, mortise):
+    text = open(PAGE).read()
+    head = text[:text.index(MARK) + len(MARK)]
+    tables = ["## Products", ""] + products(benchmark) + ["", "## Scenes", ""] + scenes(mortise)
+    open(PAGE, "w").write(head + "\n" + "\n".join(tables) + "\n")
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main(*map(os.path.abspath, sys.argv[1:]))
