@@ -30,22 +30,21 @@ namespace mortise
       std::set<std::string> named;
       for (const InterfaceParameters &interface :
            discretisation.interfaces().sides())
-        if (!interface.is_support &&
-            (interface.law == Law::slide || interface.law == Law::spring) &&
+        if (!interface.is_support && interface.law != Law::tie &&
             is_finite(run.parameters.bodies[interface.slave.body].material) &&
             named.insert(interface.name).second)
           run.log.warning(
             "interface " + interface.name +
             ": Law = " + name_of(interface.law) +
-            " keeps the normals of the undeformed bodies, and is wrong where they turn or slide far");
+            " keeps the pairs and normals of the undeformed bodies, and is wrong where they turn or slide far");
     }
 
     /// Relative to the forces of a step.
     constexpr double largest_residual = 1e3;
 
     /// Preconditioners are made again where this many times the fewest
-    /// iterations are needed.
-    constexpr double most_iterations = 1.3;
+    /// iterations per digit are needed.
+    constexpr double largest_cost = 2.;
   } // namespace
 
   NonlinearStep::NonlinearStep(const RunContext &run,
@@ -58,9 +57,11 @@ namespace mortise
     const MultigridLevel &level =
       discretisation.linear_system().bulk->levels().front();
     for (const unsigned int i : level.constrained)
-      if (!level.space->hanging_nodes().is_constrained(
-            level.layout->local_to_global(i) / dim))
-        prescribed.push_back(i);
+      (level.space->hanging_nodes().is_constrained(
+         level.layout->local_to_global(i) / dim) ?
+         hanging :
+         prescribed)
+        .push_back(i);
     warn_of_kept_normals(run, discretisation);
   }
 
@@ -84,6 +85,8 @@ namespace mortise
     SystemVector forces = discretisation.linear_system().zero_vector();
     discretisation.linear_system().apply_to_constrained(rest, forces);
     add_scaled(result, -1., forces);
+    if (contact != nullptr)
+      result.multiplier = 0.;
     return result;
   }
 
@@ -95,11 +98,8 @@ namespace mortise
     const BulkSystem &bulk = *discretisation.linear_system().bulk;
     state.displacement     = state.solution.displacement;
     state.displacement += given.prescribed_at_nodes;
-    const auto &hanging = bulk.levels().front().space->hanging_nodes();
-    for (const unsigned int i : bulk.levels().front().constrained)
-      if (hanging.is_constrained(
-            bulk.levels().front().layout->local_to_global(i) / dim))
-        state.displacement.local_element(i) = 0.;
+    for (const unsigned int i : hanging)
+      state.displacement.local_element(i) = 0.;
     std::vector<CellHistories> histories;
     for (const BodySolution &of_body : values.solutions)
       histories.push_back(of_body.history);
@@ -142,12 +142,14 @@ namespace mortise
         forces = 0.;
         system.add_multiplier_force(forces, x.multiplier);
         r.displacement -= forces;
-        system.constraint.vmult_free(r.multiplier, x.displacement);
-        r.multiplier.sadd(-1., 1., load->rhs.multiplier);
-        Vector opening(r.multiplier);
-        opening = 0.;
-        system.subtract_spring_opening(opening, x.multiplier);
-        r.multiplier -= opening;
+        if (contact == nullptr) // which sees to gaps itself
+          {
+            Vector moved(x.displacement);
+            moved -= load->prescribed_at_nodes;
+            system.constraint.vmult_free(r.multiplier, moved);
+            r.multiplier.sadd(-1., 1., load->rhs.multiplier);
+            system.subtract_spring_opening(r.multiplier, x.multiplier);
+          }
       }
     for (const unsigned int i : system.bulk->levels().front().constrained)
       r.displacement.local_element(i) = 0.;
@@ -165,7 +167,7 @@ namespace mortise
         reached <= attainable(x))
       size = tolerance;
     // a body that is prescribed as a whole has no forces that could be left
-    if (rest.linfty_norm() > 0.)
+    if (rest.linfty_norm() > 0. || (is_first && contact != nullptr))
       size = std::max(size, 2. * tolerance);
     return size;
   }
@@ -184,8 +186,8 @@ namespace mortise
   void
   NonlinearStep::linearise(const SystemVector &x)
   {
-    const bool refresh = fewest_iterations == 0 || !solver.is_ready() ||
-                         last_iterations > most_iterations * fewest_iterations;
+    const bool refresh = least_cost == 0. || !solver.is_ready() ||
+                         last_cost > largest_cost * least_cost;
     discretisation.linearise(x, before, *load, refresh);
     if (!refresh)
       return;
@@ -196,11 +198,56 @@ namespace mortise
         solver.update();
       }
     norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
-    fewest_iterations = 0;
+    least_cost = 0.;
   }
 
   SolveReport
   NonlinearStep::solve(SystemVector &x)
+  {
+    return contact != nullptr ? solve_contact(x) : solve_linear(x);
+  }
+
+  SolveReport
+  NonlinearStep::solve_contact(SystemVector &x)
+  {
+    // K (x' + D) = f - f_int + K u and so on for the solution x' without the
+    // prescribed displacements D
+    const BlockSystem &system   = discretisation.linear_system();
+    SystemVector       products = system.zero_vector();
+    Vector             moved(x.displacement);
+    moved -= load->prescribed_at_nodes;
+    system.apply_to_constrained(moved, products);
+    if (system.mixed())
+      system.bulk->apply_mixed(products.displacement,
+                               products.pressure,
+                               moved,
+                               x.pressure);
+    system.add_multiplier_force(products.displacement, x.multiplier);
+    SceneLoad linear        = *load;
+    linear.rhs.displacement = r.displacement;
+    linear.rhs.displacement += products.displacement;
+    for (const unsigned int i : system.bulk->levels().front().constrained)
+      linear.rhs.displacement.local_element(i) = 0.;
+    if (system.mixed())
+      {
+        linear.rhs.pressure = r.pressure;
+        linear.rhs.pressure += products.pressure;
+      }
+    SystemVector      solution;
+    const SolveReport report = contact->solve(*data, linear, solution);
+    x                        = solution;
+    x.displacement += load->prescribed_at_nodes;
+    for (const unsigned int i : hanging)
+      x.displacement.local_element(i) = 0.;
+    last_iterations = contact->linear_iterations();
+    least_cost      = 0.; // preconditioners see each state
+    if (!report.converged)
+      why = "contact does not converge";
+    return report;
+  }
+
+  SolveReport
+  NonlinearStep::solve_linear(SystemVector &x)
   {
     // choice 2 of Eisenstat and Walker
     const double ratio = size_before > 0. ? size / size_before : 1.;
@@ -237,10 +284,9 @@ namespace mortise
       x.displacement.local_element(i) =
         load->prescribed_at_nodes.local_element(i);
     last_iterations = report.iterations;
-    if (fewest_iterations == 0)
-      fewest_iterations = std::max(1u, last_iterations);
-    fewest_iterations =
-      std::min(fewest_iterations, std::max(1u, last_iterations));
+    // a digit of the residual
+    last_cost  = std::max(1u, last_iterations) / -std::log10(eta);
+    least_cost = least_cost == 0. ? last_cost : std::min(least_cost, last_cost);
     if (!report.converged)
       why = "the linear solver does not converge";
     return report;
@@ -255,10 +301,16 @@ namespace mortise
   }
 
   SolveReport
-  NonlinearStep::solve(SceneLoad &given, const State &last, State &next)
+  NonlinearStep::solve(const SceneData &of_step,
+                       ContactStep     *of_scene,
+                       SceneLoad       &given,
+                       const State     &last,
+                       State           &next)
   {
     const BlockSystem &system = discretisation.linear_system();
     load                      = &given;
+    data                      = &of_step;
+    contact                   = of_scene;
     before    = last.history.empty() ? system.bulk->no_history() : last.history;
     reference = size = size_before = forcing = 0.;
     why                                      = "Newton's method stagnates";
@@ -271,7 +323,9 @@ namespace mortise
         x.displacement = last.displacement;
       }
     NewtonOptions options;
-    options.tolerance      = run.parameters.solver.tolerance;
+    // problems of contact are solved to the tolerance beside all forces
+    options.tolerance =
+      (contact != nullptr ? 10. : 1.) * run.parameters.solver.tolerance;
     options.max_iterations = most_newton_iterations;
     options.accepted       = largest_residual;
     options.patience       = most_rises;
@@ -280,7 +334,7 @@ namespace mortise
     };
     newton = solve_newton(*this, options, x);
     if (!newton.converged)
-      fewest_iterations = 0; // preconditioners are of a state that is left
+      least_cost = 0.; // preconditioners are of a state that is left
 
     if (given.follower_pressures)
       given.external +=

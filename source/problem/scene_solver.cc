@@ -84,7 +84,7 @@ namespace mortise
     SolveReport &report = result.report;
     preloads.begin(data, load);
     if (nonlinear)
-      report = nonlinear->solve(load, last, next);
+      report = nonlinear->solve(data, contact.get(), load, last, next);
     else if (contact)
       report = contact->solve(data, load, next.solution);
     else if (start.empty())

@@ -100,6 +100,13 @@ namespace
     verdict(halvings == 2 && coarse.next() == 0.25,
             "no step below the smallest");
 
+    StepParameters limited = planned({1., 2.});
+    limited.largest_step   = 0.4;
+    LoadSteps even(limited, true);
+    verdict(std::fabs(even.next() - 1. / 3.) < 1e-15 && even.halve() &&
+              std::fabs(even.next() - 1. / 6.) < 1e-15,
+            "no step above the largest: three of the same length, and halves");
+
     // thirds of a step leave no sliver
     StepParameters short_one;
     short_one.end_time = 0.3;

@@ -68,6 +68,22 @@ expect 2 'zmax' "$scene" --set 'Interface glue/Slave=lower: top'
 expect 2 'each boundary once' "$scene" --set 'Interface glue/Slave=lower: zmax, zmax'
 expect 2 'no boundary .zmux' "$scene" --set 'Interface glue/Slave=lower: zmax, zmux'
 expect 2 'expression in t' "$scene" --set 'Interface glue/Preload=x'
+material='Body lower/Material/'
+expect 2 'Strain.*got small with Law = neo-Hookean' "$scene" --set "${material}Law=neo-Hookean" --set "${material}Strain=small"
+expect 2 'Yield stress.*got nothing with Law = J2 plasticity' "$scene" --set "${material}Law=J2 plasticity"
+expect 2 'softening is not supported' "$scene" --set "${material}Law=J2 plasticity" --set "${material}Yield stress=1" \
+  --set "${material}Hardening modulus=-1"
+expect 2 'Saturation exponent.*got nothing beside the other one' "$scene" --set "${material}Law=J2 plasticity" \
+  --set "${material}Yield stress=1" --set "${material}Saturation stress=2"
+expect 2 'Hardening table.*strains ascending from 0' "$scene" --set "${material}Law=J2 plasticity" \
+  --set "${material}Hardening table=0, 1; 0.1, 0.9"
+expect 2 'C10.*belongs to Law = Mooney-Rivlin' "$scene" --set "${material}C10=1"
+expect 2 'Ogden terms.*got 1, -2' "$scene" --set "${material}Law=Ogden" --set "${material}Young modulus=" \
+  --set "${material}Ogden terms=1, -2"
+expect 2 'Pressure follows.*or a law of finite strain' "$scene" --set 'Body upper/Boundary zmax/Pressure=1' \
+  --set 'Body upper/Boundary zmax/Pressure follows=true'
+expect 2 'friction knows bodies of linear laws alone' "$scene" --set "${material}Law=neo-Hookean" --set 'Interface glue/Law=contact' \
+  --set 'Interface glue/Friction coefficient=0.3'
 expect 2 'only Law = tie' "$scene" --set 'Interface glue/Preload=1' --set 'Interface glue/Law=slide'
 expect 2 'a time without a Preload' "$scene" --set 'Interface glue/Preload until=1'
 expect 2 'without Material/Thermal expansion' "$scene" --set 'Body upper/Temperature=20'

@@ -41,7 +41,7 @@ namespace mortise
     /// BulkSystem::external_forces(), or empty.
     LevelVector<double> external = {};
     /// In scenes with laws that are not linear the prescribed displacements at
-    /// nodes, which are no part of rhs; else empty.
+    /// nodes, of which rhs has what interfaces see alone; else empty.
     LevelVector<double> prescribed_at_nodes = {};
     /// Null without.
     std::shared_ptr<const FollowerPressures> follower_pressures = {};

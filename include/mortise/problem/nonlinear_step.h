@@ -1,10 +1,10 @@
 // One load step of a scene with laws of material that are not linear, as
 // Newton's method sees it. Prescribed displacements are a part of the unknowns:
 // what is left of them to the end of the step is lifted into the bodies by the
-// tangent, since cells beside boundaries that move alone would invert. Contact
-// is not known here.
+// tangent, since cells beside boundaries that move alone would invert.
 #pragma once
 
+#include <mortise/problem/contact/contact_step.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/state.h>
@@ -31,8 +31,14 @@ namespace mortise
     /// Newton's method did not converge. Linear solves are as loose as the next
     /// residual allows (Eisenstat, Walker 1996). The forces of pressures on
     /// deformed faces become part of the external ones of @p load. Collective.
+    /// @p contact, of the same scene, may be null: else each linear problem is
+    /// one of contact without friction, @p data those of @p load.
     SolveReport
-    solve(SceneLoad &load, const State &last, State &next);
+    solve(const SceneData &data,
+          ContactStep     *contact,
+          SceneLoad       &load,
+          const State     &last,
+          State           &next);
 
     /// Set the displacement and history of @p state to those of @p values, whose
     /// solution it has and @p load belongs to. Collective.
@@ -62,6 +68,10 @@ namespace mortise
     linearise(const SystemVector &x) override;
     SolveReport
     solve(SystemVector &x) override;
+    SolveReport
+    solve_linear(SystemVector &x);
+    SolveReport
+    solve_contact(SystemVector &x);
     /// r less the forces of what is left of prescribed displacements.
     SystemVector
     lifted(const Vector &rest) const;
@@ -78,18 +88,23 @@ namespace mortise
     Discretisation   &discretisation;
     LinearSolver     &solver;
     /// Indices of owned components that are prescribed.
-    std::vector<unsigned int>       prescribed;
+    std::vector<unsigned int>       prescribed, hanging;
     std::unique_ptr<ScaledResidual> norm;
 
     // of the present step
-    const SceneLoad     *load = nullptr;
+    const SceneLoad     *load    = nullptr;
+    const SceneData     *data    = nullptr;
+    ContactStep         *contact = nullptr; ///< or none
     PointHistory         before;
     BulkSystem::Response response;            ///< to the last iterate
     SystemVector         r;                   ///< forces that are left at it
     double               reference = 0.;      ///< size of forces
     double       size = 0., size_before = 0.; ///< of iterates' residuals
     double       forcing         = 0.;        ///< of the last linear solve
-    unsigned int last_iterations = 0, fewest_iterations = 0;
+    unsigned int last_iterations = 0;
+    /// Iterations of linear solves per digit: of the last, and the least since
+    /// preconditioners were made; 0: not yet known.
+    double       last_cost = 0., least_cost = 0.;
     NewtonReport newton;
     std::string  why;
   };

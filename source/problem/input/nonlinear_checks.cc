@@ -33,11 +33,11 @@ namespace mortise
     for (const InterfaceParameters &interface : parameters.interfaces)
       {
         const std::string section = "Interface " + interface.name;
-        if (is_one_sided(interface.law))
+        if (interface.law == Law::tresca || interface.friction_coefficient)
           parameters.fail(section + "/Law",
-                          name_of(interface.law) + " " + got,
-                          "tie, slide or spring: contact knows bodies of "
-                          "linear laws alone");
+                          name_of(interface.law) + " with friction " + got,
+                          "tie, slide, spring, or contact without friction: "
+                          "friction knows bodies of linear laws alone");
         if (interface.preload)
           parameters.fail(section + "/Preload",
                           "one " + got,

@@ -173,13 +173,13 @@ namespace mortise
           system.bulk->values_at_nodes([&](const auto body, const auto dof) {
             return prescribed_value(load.prescribed, numbering(body, dof));
           });
+        if (!system.bulk->is_nonlinear())
+          system.apply_to_constrained(values, load.rhs);
+        else if (load.rhs.multiplier.size() > 0)
+          system.constraint.vmult_free(load.rhs.multiplier, values);
+        scale(load.rhs, -1.);
         if (system.bulk->is_nonlinear())
           load.prescribed_at_nodes = std::move(values);
-        else
-          {
-            system.apply_to_constrained(values, load.rhs);
-            scale(load.rhs, -1.);
-          }
       }
     system.bulk->add_loads(loads, load);
     if (std::any_of(loads.begin(), loads.end(), [](const Loads &of_body) {
