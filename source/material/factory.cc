@@ -166,66 +166,14 @@ namespace mortise
       return make_ogden(given, given.ogden_terms, mixed);
     }
 
-    void
-    check_hardening(const Hardening &given, const Where &where)
-    {
-      const auto not_negative = [&](const char *name, const double value) {
-        if (!(value >= 0. && value <= largest_modulus))
-          fail(where(name),
-               text(value),
-               "0 or a positive number: softening is not supported");
-      };
-      not_negative("Hardening modulus", given.modulus);
-      not_negative("Kinematic hardening modulus", given.kinematic_modulus);
-      not_negative("Saturation exponent", given.saturation_exponent);
-      if (given.table.empty())
-        {
-          if (!is_modulus(given.yield_stress))
-            fail(where("Yield stress"),
-                 given.yield_stress == 0. ? "nothing with Law = J2 plasticity" :
-                                            text(given.yield_stress),
-                 modulus_words + allowed_moduli());
-          if (given.saturation_stress != 0. &&
-              !(given.saturation_stress >= given.yield_stress))
-            fail(where("Saturation stress"),
-                 text(given.saturation_stress),
-                 "at least the Yield stress, " + text(given.yield_stress) +
-                   ": softening is not supported");
-          if ((given.saturation_stress > 0.) !=
-              (given.saturation_exponent > 0.))
-            fail(where(given.saturation_stress > 0. ? "Saturation exponent" :
-                                                      "Saturation stress"),
-                 "nothing beside the other one",
-                 "a positive number, or neither");
-          return;
-        }
-      const std::string allowed =
-        "\"plastic strain, yield stress; ...\", strains ascending from 0, stresses positive and not descending";
-      if (given.yield_stress != 0. || given.modulus != 0. ||
-          given.saturation_stress != 0.)
-        fail(where("Hardening table"),
-             "one beside Yield stress, Hardening modulus or Saturation stress",
-             "one of both");
-      double strain = 0., stress = smallest_modulus;
-      for (unsigned int i = 0; i < given.table.size(); ++i)
-        {
-          const auto &[alpha, sigma] = given.table[i];
-          if (!(i == 0 ? alpha == 0. : alpha > strain) || !(sigma >= stress))
-            fail(where("Hardening table"),
-                 "\"" + text(alpha) + ", " + text(sigma) + "\"",
-                 allowed);
-          strain = alpha;
-          stress = sigma;
-        }
-    }
-
     Material
     make_plasticity(const MaterialParameters &given,
                     const bool                mixed,
                     const Where              &where)
     {
       const LinearElastic law = hooke(given, mixed, true, where);
-      check_hardening(given.hardening, where);
+      if (const auto defect = given.hardening.defect())
+        fail(where(defect->constant), defect->got, defect->allowed);
       const Plasticity plasticity(law.displacement_lambda() +
                                     2. / 3. * law.lame_mu(),
                                   law.lame_mu(),

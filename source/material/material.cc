@@ -29,6 +29,12 @@ namespace mortise
     return sigma;
   }
 
+  bool
+  Material::has_finite_strain() const
+  {
+    return nonlinear_law && is_finite(nonlinear_law->form());
+  }
+
   Material::Response
   Material::respond(const Tensor<2, 3> &gradient,
                     const double        pressure,
@@ -58,7 +64,7 @@ namespace mortise
                           s);
     for (unsigned int i = 0; i < 3; ++i)
       s[i][i] -= pressure;
-    const bool        finite = is_finite(nonlinear_law->form());
+    const bool        finite = has_finite_strain();
     const DoubleBatch J      = finite ? 1. + dilatation(h) : DoubleBatch{} + 1.;
     invert_gradient(h, J, inverse);
     for (unsigned int i = 0; i < 3; ++i)

@@ -1,7 +1,9 @@
+#include <mortise/base/numbers.h>
 #include <mortise/material/plasticity.h>
 #include <mortise/material/voigt.h>
 
 #include <cmath>
+#include <sstream>
 
 namespace mortise
 {
@@ -28,6 +30,68 @@ namespace mortise
       return false;
     }
   } // namespace
+
+  std::optional<Hardening::Defect>
+  Hardening::defect() const
+  {
+    const auto text = [](const double number) {
+      std::ostringstream stream;
+      stream << number;
+      return stream.str();
+    };
+    const std::string softening = ": softening is not supported";
+    for (const auto &[name, number] :
+         {std::pair("Hardening modulus", modulus),
+          std::pair("Kinematic hardening modulus", kinematic_modulus),
+          std::pair("Saturation exponent", saturation_exponent)})
+      if (!(number >= 0. && number <= largest_modulus))
+        return Defect{name, text(number), "0 or a positive number" + softening};
+    if (!table.empty())
+      return defect_of_table();
+    if (!(yield_stress >= smallest_modulus && yield_stress <= largest_modulus))
+      return Defect{"Yield stress",
+                    yield_stress == 0. ? "nothing with Law = J2 plasticity" :
+                                         text(yield_stress),
+                    "a positive number (force per area) " + allowed_moduli()};
+    if (saturation_stress != 0. && !(saturation_stress >= yield_stress))
+      return Defect{"Saturation stress",
+                    text(saturation_stress),
+                    "at least the Yield stress, " + text(yield_stress) +
+                      softening};
+    if ((saturation_stress > 0.) != (saturation_exponent > 0.))
+      return Defect{saturation_stress > 0. ? "Saturation exponent" :
+                                             "Saturation stress",
+                    "nothing beside the other one",
+                    "a positive number, or neither"};
+    return {};
+  }
+
+  std::optional<Hardening::Defect>
+  Hardening::defect_of_table() const
+  {
+    if (yield_stress != 0. || modulus != 0. || saturation_stress != 0.)
+      return Defect{
+        "Hardening table",
+        "one beside Yield stress, Hardening modulus or Saturation stress",
+        "one of both"};
+    double strain = 0., stress = smallest_modulus;
+    for (unsigned int i = 0; i < table.size(); ++i)
+      {
+        const auto &[alpha, sigma] = table[i];
+        if (!(i == 0 ? alpha == 0. : alpha > strain) || !(sigma >= stress))
+          {
+            std::ostringstream got;
+            got << '"' << alpha << ", " << sigma << '"';
+            return Defect{
+              "Hardening table",
+              got.str(),
+              "\"plastic strain, yield stress; ...\", strains ascending from 0, stresses positive and not descending"};
+          }
+        strain = alpha;
+        stress = sigma;
+      }
+    return {};
+  }
 
   void
   Hardening::evaluate(const V &alpha, V &value, V &slope) const

@@ -2,15 +2,14 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
-#include <mortise/material/nonlinear_law.h>
 #include <mortise/output/checkpoint.h>
 #include <mortise/output/checkpoint_scene.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
-#include <stdexcept>
 #include <utility>
+
+#include "checkpoint_records.h"
 
 namespace mortise
 {
@@ -18,8 +17,7 @@ namespace mortise
 
   namespace
   {
-    const char *const of_scene = "scene", *const of_faces = "multipliers",
-                      *const of_points = "histories";
+    const char *const of_scene = "scene", *const of_faces = "multipliers";
 
     /// A section for each field of the bodies.
     struct FieldKind
@@ -30,39 +28,6 @@ namespace mortise
 
     constexpr FieldKind field_kinds[] = {{"displacements", false},
                                          {"pressures", true}};
-
-    /// Of a cell with one bit for each of its dofs, by bytes, and the values of
-    /// those whose bit is set: a value is in the record of the first cell, by
-    /// number, that has its dof, so that it is there once, whatever the ranks.
-    /// Of a slave face with its coefficients, or of a cell with what its points
-    /// remember.
-    struct Record
-    {
-      std::uint32_t       part = 0; ///< number of the body or interface
-      std::uint32_t       face = 0; ///< of the cell
-      CellNumber          cell = {};
-      std::string         bits;
-      std::vector<double> values;
-
-      template <typename Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &part &face &cell &bits &values;
-      }
-    };
-
-    using CellsByNumber = std::map<CellNumber, Body::CellIterator>;
-
-    CellsByNumber
-    cells_by_number(const Body &body)
-    {
-      CellsByNumber cells;
-      for (const auto &cell : body.dof_handler.active_cell_iterators())
-        if (!cell->is_artificial())
-          cells.emplace(cell->id().to_binary<dim>(), cell);
-      return cells;
-    }
 
     std::vector<types::global_dof_index>
     dofs_of(const Body               &body,
@@ -105,37 +70,6 @@ namespace mortise
             records += to_bytes(to_bytes(std::move(record)));
         }
     }
-
-    /// Give @p put the records of all ranks, which says in words what does not fit the scene; returns the
-    /// first such words, or nothing.
-    template <typename Put>
-    std::string
-    read_records(const CheckpointFile &file,
-                 const char *const     section,
-                 const std::uint64_t   block,
-                 const Put            &put)
-    {
-      std::string problem;
-      file.for_each_record(
-        section,
-        [&](const std::string &bytes) {
-          Record record;
-          try
-            {
-              record = from_bytes<Record>(bytes);
-            }
-          catch (const std::out_of_range &error)
-            {
-              throw file.damaged(error.what()); // on all ranks
-            }
-          if (problem.empty())
-            problem = put(record);
-        },
-        block);
-      return problem;
-    }
-
-    const std::string unknown = "it has a record of what the scene has not";
 
     bool
     all(const std::vector<bool> &filled)
@@ -222,79 +156,13 @@ namespace mortise
       std::string problem =
         read_records(file, kind.section, block, [&](const Record &record) {
           const auto field = fields.find(record.part);
-          return field == fields.end() ? unknown : field->second.put(record);
+          return field == fields.end() ? std::string(unknown_record) :
+                                         field->second.put(record);
         });
       for (auto &[b, field] : fields)
         if (problem.empty() && !all(field.filled))
           problem = "body " + in_quotes(field.body.name) +
                     " has no values for some of the dofs that it has now";
-      return problem;
-    }
-
-    bool
-    remembers(const Body &body)
-    {
-      const auto &law = body.material.nonlinear();
-      return law && law->n_history() > 0;
-    }
-
-    void
-    append_histories(const Body         &body,
-                     const BodySolution &solution,
-                     std::string        &records)
-    {
-      for (const auto &[number, cell] : cells_by_number(body))
-        if (cell->is_locally_owned())
-          records += to_bytes(
-            to_bytes(Record{body.index,
-                            0,
-                            number,
-                            {},
-                            solution.history[cell->active_cell_index()]}));
-    }
-
-    /// Likewise.
-    std::string
-    read_histories(const CheckpointFile      &file,
-                   const std::uint64_t        block,
-                   const Bodies              &bodies,
-                   std::vector<BodySolution> &solutions)
-    {
-      std::map<unsigned int, CellsByNumber> cells; // by body
-      for (const auto &body : bodies)
-        if (remembers(*body))
-          {
-            cells[body->index] = cells_by_number(*body);
-            solutions[body->index].history.resize(
-              body->triangulation().n_active_cells());
-          }
-      if (cells.empty())
-        return "";
-      std::string problem =
-        read_records(file, of_points, block, [&](const Record &record) {
-          const auto of_body = cells.find(record.part);
-          if (of_body == cells.end())
-            return unknown;
-          const auto  found = of_body->second.find(record.cell);
-          const auto &body  = *bodies[record.part];
-          if (found == of_body->second.end())
-            return std::string();
-          const auto &cell = found->second;
-          if (record.values.size() !=
-              body.material.nonlinear()->n_history() *
-                points_of_forces(body, cell->active_fe_index()).size())
-            return "body " + in_quotes(body.name) +
-                   " remembers other numbers than now";
-          solutions[record.part].history[cell->active_cell_index()] =
-            record.values;
-          return std::string();
-        });
-      for (const auto &[b, of_body] : cells)
-        for (const auto &[number, cell] : of_body)
-          if (problem.empty() && cell->is_locally_owned() &&
-              solutions[b].history[cell->active_cell_index()].empty())
-            problem = "body " + in_quotes(bodies[b]->name) +
-                      " has no histories for some of its cells";
       return problem;
     }
 
@@ -325,7 +193,7 @@ namespace mortise
         read_records(file, of_faces, block, [&](const Record &record) {
           const unsigned int i = record.part;
           if (i >= faces.size())
-            return unknown;
+            return std::string(unknown_record);
           const auto found = faces[i].find({record.cell, record.face});
           if (found == faces[i].end())
             return std::string();
@@ -369,7 +237,7 @@ namespace mortise
       if (remembers(*body))
         append_histories(*body,
                          values.solutions[body->index],
-                         records[of_points]);
+                         records[histories_section]);
     std::string &of_multipliers = records[of_faces];
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {

@@ -106,6 +106,23 @@ namespace mortise
     state.history = bulk.by_point(histories);
   }
 
+  void
+  NonlinearStep::add_interfaces(const SystemVector &x)
+  {
+    const BlockSystem &system = discretisation.linear_system();
+    Vector             forces(r.displacement);
+    forces = 0.;
+    system.add_multiplier_force(forces, x.multiplier);
+    r.displacement -= forces;
+    if (contact != nullptr)
+      return; // which sees to gaps itself
+    Vector moved(x.displacement);
+    moved -= load->prescribed_at_nodes;
+    system.constraint.vmult_free(r.multiplier, moved);
+    r.multiplier.sadd(-1., 1., load->rhs.multiplier);
+    system.subtract_spring_opening(r.multiplier, x.multiplier);
+  }
+
   double
   NonlinearStep::residual(const SystemVector &x)
   {
@@ -137,20 +154,7 @@ namespace mortise
         system.free_pressures.project_residual(r.pressure);
       }
     if (r.multiplier.size() > 0)
-      {
-        Vector forces(r.displacement);
-        forces = 0.;
-        system.add_multiplier_force(forces, x.multiplier);
-        r.displacement -= forces;
-        if (contact == nullptr) // which sees to gaps itself
-          {
-            Vector moved(x.displacement);
-            moved -= load->prescribed_at_nodes;
-            system.constraint.vmult_free(r.multiplier, moved);
-            r.multiplier.sadd(-1., 1., load->rhs.multiplier);
-            system.subtract_spring_opening(r.multiplier, x.multiplier);
-          }
-      }
+      add_interfaces(x);
     for (const unsigned int i : system.bulk->levels().front().constrained)
       r.displacement.local_element(i) = 0.;
     const Vector rest     = rest_of_prescribed(x);

@@ -97,6 +97,9 @@ namespace mortise
       return nonlinear_law;
     }
 
+    bool
+    has_finite_strain() const;
+
     /// Null if the law has directions.
     const LinearElastic *
     isotropic() const

@@ -6,6 +6,8 @@
 
 #include <mortise/material/logarithmic_law.h>
 
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,11 +30,24 @@ namespace mortise
     /// others but the kinematic modulus.
     std::vector<std::pair<double, double>> table;
 
+    /// A constant, by its name in a parameter file, that cannot be.
+    struct Defect
+    {
+      std::string constant, got, allowed;
+    };
+
+    std::optional<Defect>
+    defect() const;
+
     /// Set @p value = sigma_y(alpha) and @p slope, its derivative.
     void
     evaluate(const DoubleBatch &alpha,
              DoubleBatch       &value,
              DoubleBatch       &slope) const;
+
+  private:
+    std::optional<Defect>
+    defect_of_table() const;
   };
 
   /// At small strain. The history: the plastic strain as xx, yy, zz, yz, zx, xy

@@ -75,6 +75,9 @@ namespace mortise
     /// r less the forces of what is left of prescribed displacements.
     SystemVector
     lifted(const Vector &rest) const;
+    /// Add forces of multipliers to r, and set its gaps.
+    void
+    add_interfaces(const SystemVector &x);
     /// What rounding leaves of the residual of @p x.
     double
     attainable(SystemVector x) const;

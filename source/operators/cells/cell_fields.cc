@@ -167,9 +167,8 @@ namespace mortise
   Material::Response
   CellFields::respond(const unsigned int q) const
   {
-    const double strain     = thermal_strains.empty() ? 0. : thermal_strains[q];
-    const NonlinearLaw *law = body.material.nonlinear().get();
-    const bool          finite = law != nullptr && is_finite(law->form());
+    const double strain = thermal_strains.empty() ? 0. : thermal_strains[q];
+    const bool   finite = body.material.has_finite_strain();
     // F = (1 + strain) F_e
     Material::Response result =
       body.material.respond(elastic(gradients[q], q) /

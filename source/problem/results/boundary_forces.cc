@@ -1,6 +1,5 @@
 #include <deal.II/base/mpi.h>
 
-#include <mortise/material/nonlinear_law.h>
 #include <mortise/operators/boundary_nodes.h>
 #include <mortise/output/functionals.h>
 #include <mortise/problem/results/boundary_forces.h>
@@ -19,14 +18,6 @@ namespace mortise
       for (bool &component : which)
         component = !component;
       return which;
-    }
-
-    /// Are moments those about deformed positions?
-    bool
-    has_finite_strain(const Body &body)
-    {
-      return body.material.nonlinear() &&
-             is_finite(body.material.nonlinear()->form());
     }
 
     Tensor<1, dim>
@@ -251,7 +242,7 @@ namespace mortise
       boundary_nodes(nodes_of(discretisation), body, boundary);
     LevelVector<double> places =
       node_positions(nodes_of(discretisation), body, wanted);
-    if (has_finite_strain(body))
+    if (body.material.has_finite_strain())
       places += values_at_nodes(discretisation, solutions);
     ForceAndMoment result;
     for (unsigned int i = 0; i < forces.locally_owned_size(); i += dim)
@@ -275,7 +266,7 @@ namespace mortise
   BoundaryForces::moment_of_displacement(const unsigned int i) const
   {
     const SideParameters &slave = discretisation.interfaces().sides()[i].slave;
-    if (!has_finite_strain(*discretisation.bodies()[slave.body]))
+    if (!discretisation.bodies()[slave.body]->material.has_finite_strain())
       return {};
     const LevelVector<double> forces =
       dirichlet.forces_of(i, solved.solution.multiplier);

@@ -150,6 +150,23 @@ namespace mortise
       }
   }
 
+  void
+  Discretisation::lift(SceneLoad &load) const
+  {
+    const auto &numbering = spaces.fields.displacement.numbering;
+    Vector      values =
+      system.bulk->values_at_nodes([&](const auto body, const auto dof) {
+        return prescribed_value(load.prescribed, numbering(body, dof));
+      });
+    if (!system.bulk->is_nonlinear())
+      system.apply_to_constrained(values, load.rhs);
+    else if (load.rhs.multiplier.size() > 0)
+      system.constraint.vmult_free(load.rhs.multiplier, values);
+    scale(load.rhs, -1.);
+    if (system.bulk->is_nonlinear())
+      load.prescribed_at_nodes = std::move(values);
+  }
+
   SceneLoad
   Discretisation::load(const SceneData &data) const
   {
@@ -167,20 +184,7 @@ namespace mortise
       if (body->material.nonlinear())
         loads[body->index].thermal_strain = {};
     if (spaces.has_prescribed_values() || system.bulk->is_nonlinear())
-      {
-        const auto &numbering = spaces.fields.displacement.numbering;
-        Vector      values =
-          system.bulk->values_at_nodes([&](const auto body, const auto dof) {
-            return prescribed_value(load.prescribed, numbering(body, dof));
-          });
-        if (!system.bulk->is_nonlinear())
-          system.apply_to_constrained(values, load.rhs);
-        else if (load.rhs.multiplier.size() > 0)
-          system.constraint.vmult_free(load.rhs.multiplier, values);
-        scale(load.rhs, -1.);
-        if (system.bulk->is_nonlinear())
-          load.prescribed_at_nodes = std::move(values);
-      }
+      lift(load);
     system.bulk->add_loads(loads, load);
     if (std::any_of(loads.begin(), loads.end(), [](const Loads &of_body) {
           return !of_body.follower_pressures.empty();

@@ -185,6 +185,10 @@ namespace mortise
     set_pairing(std::unique_ptr<Pairing> pairing);
     void
     create_bulk();
+    /// Let the right hand side of @p load be that of the solution without its
+    /// prescribed displacements.
+    void
+    lift(SceneLoad &load) const;
     void
     find_free_pressures();
     /// Prescribed displacements in the numbering of the scene, others zero.

@@ -72,6 +72,14 @@ namespace mortise
     dirichlet(const Body &body) const;
 
   private:
+    /// The pressure @p text on boundary @p id joins @p loads.
+    void
+    add_pressure(dealii::types::boundary_id id,
+                 const std::string         &text,
+                 const std::string         &where,
+                 bool                       follows,
+                 Loads                     &loads) const;
+
     const Parameters                    &parameters;
     const double                         factor; ///< of all that acts
     const double                         time;

@@ -1,0 +1,187 @@
+// Products with tangents that are kept at points, for any shape of cells, see
+// kernel_on.h. Only sources of kernels include this.
+#pragma once
+
+#include <mortise/operators/matrix_free/mixed_kernel_on.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace mortise
+{
+  /// @p visit(form) with the form as a constant.
+  template <typename Visit>
+  void
+  with_form(const TangentForm form, const Visit &visit)
+  {
+    switch (form)
+      {
+        case TangentForm::isotropic_finite:
+          return visit(std::integral_constant<TangentForm,
+                                              TangentForm::isotropic_finite>());
+        case TangentForm::rank_one:
+          return visit(
+            std::integral_constant<TangentForm, TangentForm::rank_one>());
+        case TangentForm::full:
+          return visit(
+            std::integral_constant<TangentForm, TangentForm::full>());
+        case TangentForm::full_finite:
+          return visit(
+            std::integral_constant<TangentForm, TangentForm::full_finite>());
+      }
+  }
+
+  /// Products with tangents that are kept at points. @p Base: KernelOn or
+  /// MixedKernelOn.
+  template <typename Number>
+  template <typename Base>
+  class MatrixFreeElasticity<Number>::TangentKernelOn : public Base
+  {
+  public:
+    using V = typename Batch<Number>::Vector;
+    using Base::Base;
+
+    void
+    add_product(const CellBatches<Number> &cells,
+                const Number              *src,
+                Number                    *dst) override
+    {
+      this->multiply(*this, cells, src, dst);
+    }
+
+    void
+    add_diagonal(const CellBatches<Number> &cells, Number *dst) override
+    {
+      this->sum_diagonal(*this, cells, dst);
+    }
+
+    /// As that of KernelOn, the law being the tangent at the point.
+    template <typename Visit>
+    void
+    at_laws(const CellBatches<Number> &cells,
+            const unsigned int         batch,
+            const Visit               &visit) const
+    {
+      const unsigned int n = cells.n_numbers();
+      const V *tangent     = reinterpret_cast<const V *>(cells.tangent.data()) +
+                         std::size_t(batch) * cells.n_points * n;
+      with_form(cells.nonlinear->form(), [&](const auto form) {
+        this->template at_points_of<false>(
+          tangent_metric(cells, batch), [=](const auto &at) {
+            fetch(tangent + (at.q + at.n) * n, n);
+            visit(TangentAt<Number, form()>{tangent + at.q * n}, at);
+          });
+      });
+    }
+
+    std::vector<Moduli>
+    average_moduli(const CellBatches<Number> &cells,
+                   const bool                 initial_stress) override
+    {
+      std::vector<Moduli> result(cells.n_cells);
+      const unsigned int  n = cells.n_numbers();
+      for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
+        {
+          V sums[dim][dim][dim][dim] = {}, volume = {};
+          with_form(cells.nonlinear->form(), [&](const auto form) {
+            this->template at_points_of<false>(
+              cells.metric_of(batch), [&](const auto &at) {
+                const std::size_t number =
+                  std::size_t(batch) * cells.n_points + at.q;
+                const V weight = at.root() * at.root();
+                V       inverse[dim][dim];
+                get_inverse(cells, number, at.G, inverse);
+                V numbers[n_tangent(form())];
+                std::memcpy(numbers,
+                            reinterpret_cast<const V *>(cells.tangent.data()) +
+                              number * n,
+                            sizeof numbers);
+                if (!initial_stress)
+                  std::fill(numbers + n_moduli(form()),
+                            numbers + n_tangent(form()),
+                            V{});
+                add_moduli(TangentAt<Number, form()>{numbers},
+                           inverse,
+                           weight,
+                           sums);
+                volume += weight;
+              });
+          });
+          for (unsigned int lane = 0; lane < cells.lanes(batch); ++lane)
+            for (unsigned int i = 0; i < 81; ++i)
+              (&result[batch * Batch<Number>::size + lane][0][0][0][0])[i] =
+                (&sums[0][0][0][0])[i][lane] / volume[lane];
+        }
+      return result;
+    }
+
+  private:
+    /// F^{-1} = G^{-1} G_x at point @p number, I at small strain.
+    static void
+    get_inverse(const CellBatches<Number> &cells,
+                const std::size_t          number,
+                const V (&G)[dim][dim],
+                V (&inverse)[dim][dim])
+    {
+      if (cells.deformed_metric.empty())
+        {
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int e = 0; e < dim; ++e)
+              inverse[i][e] = V{} + Number(i == e ? 1 : 0);
+          return;
+        }
+      const V *deformed =
+        reinterpret_cast<const V *>(cells.deformed_metric.data()) +
+        number * dim * dim;
+      const V det = determinant_of(G);
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          // row i of G^{-1}, the transposed cofactor
+          V row[dim];
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              const unsigned int b = (a + 1) % dim, c = (a + 2) % dim,
+                                 j = (i + 1) % dim, k = (i + 2) % dim;
+              row[a] = (G[b][j] * G[c][k] - G[b][k] * G[c][j]) / det;
+            }
+          for (unsigned int e = 0; e < dim; ++e)
+            inverse[i][e] = row[0] * deformed[e] + row[1] * deformed[dim + e] +
+                            row[2] * deformed[2 * dim + e];
+        }
+    }
+
+    /// A_iajb = dP_ia / d(Grad u)_jb.
+    template <typename Tangent>
+    static void
+    add_moduli(const Tangent &tangent,
+               const V (&inverse)[dim][dim],
+               const V &weight,
+               V (&sums)[dim][dim][dim][dim])
+    {
+      for (unsigned int j = 0; j < dim; ++j)
+        for (unsigned int b = 0; b < dim; ++b)
+          {
+            V h[dim][dim] = {}, s[dim][dim];
+            for (unsigned int e = 0; e < dim; ++e)
+              h[j][e] = inverse[b][e];
+            tangent.tangent(Undeformed(), h, s);
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int a = 0; a < dim; ++a)
+                sums[i][a][j][b] +=
+                  weight * (s[i][0] * inverse[a][0] + s[i][1] * inverse[a][1] +
+                            s[i][2] * inverse[a][2]);
+          }
+    }
+
+  protected:
+    static const Number *
+    tangent_metric(const CellBatches<Number> &cells, const unsigned int batch)
+    {
+      const std::size_t size =
+        std::size_t(cells.n_points) * dim * dim * Batch<Number>::size;
+      return cells.deformed_metric.empty() ?
+               cells.metric_of(batch) :
+               cells.deformed_metric.data() + batch * size;
+    }
+  };
+} // namespace mortise
