@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace mortise
 {
@@ -74,6 +75,8 @@ namespace mortise
   FollowerPressures::FollowerPressures(const MultigridLevel     &level,
                                        const std::vector<Loads> &loads)
   {
+    std::map<std::array<unsigned int, 3>, std::shared_ptr<const Functions>>
+                                   functions; // by body, element and face
     std::vector<NodalSpace::Index> nodes;
     for (const Body *body : level.space->bodies())
       for (const PressureCondition &condition :
@@ -86,16 +89,15 @@ namespace mortise
               face_rule(cell->get_fe(), f, traction_points(cell->get_fe()));
             const std::array<unsigned int, 3> key{
               {body->index, cell->active_fe_index(), f}};
-            auto found = functions.find(key);
-            if (found == functions.end())
-              found =
-                functions.emplace(key, make_functions(*body, cell, f, rule))
-                  .first;
+            auto &of_face = functions[key];
+            if (!of_face)
+              of_face = std::make_shared<const Functions>(
+                make_functions(*body, cell, f, rule));
             FaceGeometry geometry(*body, f, rule);
             geometry.reinit(cell);
             level.space->get_nodes(body->index, cell, nodes);
-            Face face{body, condition.boundary, &found->second, {}, {}};
-            for (const unsigned int node : found->second.nodes)
+            Face face{body, condition.boundary, of_face, {}, {}};
+            for (const unsigned int node : of_face->nodes)
               face.indices.push_back(
                 level.layout->global_to_local(dim * nodes[node]));
             for (unsigned int q = 0; q < rule.size(); ++q)

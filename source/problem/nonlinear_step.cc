@@ -220,12 +220,13 @@ namespace mortise
     SystemVector       products = system.zero_vector();
     Vector             moved(x.displacement);
     moved -= load->prescribed_at_nodes;
-    system.apply_to_constrained(moved, products);
     if (system.mixed())
       system.bulk->apply_mixed(products.displacement,
                                products.pressure,
                                moved,
                                x.pressure);
+    else
+      system.bulk->apply_to_constrained(moved, products);
     system.add_multiplier_force(products.displacement, x.multiplier);
     SceneLoad linear        = *load;
     linear.rhs.displacement = r.displacement;
@@ -256,11 +257,8 @@ namespace mortise
     // choice 2 of Eisenstat and Walker
     const double ratio = size_before > 0. ? size / size_before : 1.;
     double       eta   = std::min(loosest_solve, 0.9 * ratio * ratio);
-    if (0.9 * forcing * forcing > 0.1)
-      eta = std::max(eta, 0.9 * forcing * forcing);
     eta         = std::max(eta, 0.3 * run.parameters.solver.tolerance / size);
     eta         = std::min(eta, loosest_solve);
-    forcing     = eta;
     size_before = size;
 
     const Vector     rest            = rest_of_prescribed(x);
@@ -316,8 +314,8 @@ namespace mortise
     data                      = &of_step;
     contact                   = of_scene;
     before    = last.history.empty() ? system.bulk->no_history() : last.history;
-    reference = size = size_before = forcing = 0.;
-    why                                      = "Newton's method stagnates";
+    reference = size = size_before = 0.;
+    why                            = "Newton's method stagnates";
     if (!norm)
       norm = std::make_unique<ScaledResidual>(system);
     SystemVector x = system.zero_vector();

@@ -8,7 +8,7 @@
 #include <mortise/operators/scene_load.h>
 
 #include <array>
-#include <map>
+#include <memory>
 #include <vector>
 
 namespace mortise
@@ -66,11 +66,11 @@ namespace mortise
 
     struct Face
     {
-      const Body                *body;
-      dealii::types::boundary_id boundary;
-      const Functions           *functions;
-      std::vector<unsigned int>  indices; ///< of first components, by function
-      std::vector<Point>         points;
+      const Body                      *body;
+      dealii::types::boundary_id       boundary;
+      std::shared_ptr<const Functions> functions; ///< of many faces
+      std::vector<unsigned int> indices; ///< of first components, by function
+      std::vector<Point>        points;
     };
 
     static Functions
@@ -82,8 +82,6 @@ namespace mortise
     std::array<Vector3, 2>
     tangents(const Face &face, unsigned int q, const double *u) const;
 
-    std::map<std::array<unsigned int, 3>, Functions>
-                      functions; ///< by body, element and face
     std::vector<Face> faces;
   };
 } // namespace mortise

@@ -31,8 +31,8 @@ namespace mortise
     /// Newton's method did not converge. Linear solves are as loose as the next
     /// residual allows (Eisenstat, Walker 1996). The forces of pressures on
     /// deformed faces become part of the external ones of @p load. Collective.
-    /// @p contact, of the same scene, may be null: else each linear problem is
-    /// one of contact without friction, @p data those of @p load.
+    /// @p data: of the time of @p load. @p contact: null, or that of the scene,
+    /// without friction; each linear problem is then one of contact.
     SolveReport
     solve(const SceneData &data,
           ContactStep     *contact,
@@ -103,7 +103,6 @@ namespace mortise
     SystemVector         r;                   ///< forces that are left at it
     double               reference = 0.;      ///< size of forces
     double       size = 0., size_before = 0.; ///< of iterates' residuals
-    double       forcing         = 0.;        ///< of the last linear solve
     unsigned int last_iterations = 0;
     /// Iterations of linear solves per digit: of the last, and the least since
     /// preconditioners were made; 0: not yet known.
