@@ -133,32 +133,6 @@ namespace mortise
     });
   }
 
-  LeastJacobian
-  BulkSystem::add_response(const Vector       &u,
-                           const Vector       &p,
-                           const PointHistory &before,
-                           const PointHistory &thermal,
-                           Response           &sum) const
-  {
-    stiffness->complete(u);
-    if (pressures)
-      pressures->complete(p);
-    // the first are only read
-    const LeastJacobian least = stiffness->elasticity().add_residual(
-      {const_cast<double *>(u.begin()), const_cast<double *>(p.begin())},
-      before,
-      sum.history,
-      {sum.forces.begin(), sum.dilatation.begin()},
-      thermal);
-    stiffness->release(u);
-    stiffness->gather(sum.forces);
-    if (!pressures)
-      return least;
-    pressures->release(p);
-    pressures->gather(sum.dilatation);
-    return least;
-  }
-
   BulkSystem::Response
   BulkSystem::respond(const Vector       &u,
                       const Vector       &p,
@@ -168,37 +142,43 @@ namespace mortise
     Response     result;
     const Vector values(u); // those of hanging nodes are not kept
     initialize(result.forces);
+    stiffness->complete(values);
     if (pressures)
-      initialize_pressure(result.dilatation);
-    const PointHistory  none  = before.empty() ? no_history() : PointHistory();
-    const PointHistory &from  = before.empty() ? none : before;
-    result.history            = from;
-    const LeastJacobian least = add_response(values, p, from, thermal, result);
+      {
+        initialize_pressure(result.dilatation);
+        pressures->complete(p);
+      }
+    const PointHistory  none = before.empty() ? no_history() : PointHistory();
+    const PointHistory &from = before.empty() ? none : before;
+    result.history           = from;
+    // the first are only read
+    result.least_of_rank = stiffness->elasticity().add_residual(
+      {const_cast<double *>(values.begin()), const_cast<double *>(p.begin())},
+      from,
+      result.history,
+      {result.forces.begin(), result.dilatation.begin()},
+      thermal);
+    stiffness->gather(result.forces);
+    if (pressures)
+      {
+        pressures->release(p);
+        pressures->gather(result.dilatation);
+      }
     result.least_jacobian =
-      Utilities::MPI::min(least.value,
+      Utilities::MPI::min(result.least_of_rank.value,
                           all_levels.front().layout->get_mpi_communicator());
     return result;
   }
 
   std::string
-  BulkSystem::place_of_least_jacobian(const Vector       &u,
-                                      const Vector       &p,
-                                      const PointHistory &before,
-                                      const PointHistory &thermal) const
+  BulkSystem::place_of_least_jacobian(const Response &response) const
   {
     const NodalSpace &space = *all_levels.front().space;
     const MPI_Comm    comm  = all_levels.front().layout->get_mpi_communicator();
-    Response          unused;
-    const Vector      values(u);
-    initialize(unused.forces);
-    if (pressures)
-      initialize_pressure(unused.dilatation);
-    unused.history = before;
-    const LeastJacobian least =
-      add_response(values, p, before, thermal, unused);
-    const double       lowest = Utilities::MPI::min(least.value, comm);
-    const unsigned int mine   = Utilities::MPI::this_mpi_process(comm);
-    const unsigned int rank =
+    const LeastJacobian &least  = response.least_of_rank;
+    const double         lowest = response.least_jacobian;
+    const unsigned int   mine   = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int   rank =
       Utilities::MPI::min(least.value <= lowest ?
                             mine :
                             Utilities::MPI::n_mpi_processes(comm),

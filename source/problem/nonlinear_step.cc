@@ -134,11 +134,7 @@ namespace mortise
     if (!(response.least_jacobian > 0.))
       {
         why =
-          "a cell inverts: " +
-          system.bulk->place_of_least_jacobian(x.displacement,
-                                               x.pressure,
-                                               before,
-                                               load->thermal_strains_at_points);
+          "a cell inverts: " + system.bulk->place_of_least_jacobian(response);
         return std::numeric_limits<double>::infinity();
       }
     r              = system.zero_vector();

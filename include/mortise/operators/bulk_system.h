@@ -192,7 +192,8 @@ namespace mortise
       Vector       forces, dilatation;
       PointHistory history; ///< up to here
       /// The least determinant of deformation gradients.
-      double least_jacobian = 1.;
+      double        least_jacobian = 1.;
+      LeastJacobian least_of_rank; ///< with its cell
     };
 
     /// To the displacement @p u, values at nodes with those prescribed, and
@@ -251,12 +252,9 @@ namespace mortise
               const Body                *body     = nullptr,
               dealii::types::boundary_id boundary = 0) const;
 
-    /// Where the least Jacobian of a displacement is, in words. Collective.
+    /// Where the least Jacobian of @p response is, in words. Collective.
     std::string
-    place_of_least_jacobian(const Vector       &u,
-                            const Vector       &p,
-                            const PointHistory &before,
-                            const PointHistory &thermal_strains) const;
+    place_of_least_jacobian(const Response &response) const;
 
     /// Set displacements and pressures of @p rhs to K u, zero at constrained
     /// components, and G u, for @p u that need not be zero there. Collective.
@@ -332,14 +330,6 @@ namespace mortise
     follower_is_symmetric() const;
     void
     linearise_undeformed();
-    /// Sum up the forces of respond() and return the least Jacobian of this
-    /// rank's cells.
-    LeastJacobian
-    add_response(const Vector       &u,
-                 const Vector       &p,
-                 const PointHistory &before,
-                 const PointHistory &thermal_strains,
-                 Response           &sum) const;
     /// [K G^T; G -C] (u, p) with constrained components; @p dst_p and @p p are
     /// not used without bodies in mixed form.
     void
