@@ -169,8 +169,7 @@ namespace mortise
       }
     while (!next.report.converged && steps.halve());
     report = std::move(next.report);
-    if (!report.converged && !equations->nonlinear_reason().empty() &&
-        !summary.steps.empty())
+    if (!report.converged && !equations->nonlinear_reason().empty())
       return write_reached(writes);
     state      = std::move(next.state);
     state.time = steps.next();
@@ -209,7 +208,7 @@ namespace mortise
   void
   Simulation::write_reached(const bool writes)
   {
-    if (!writes || steps.output_due())
+    if (!writes || steps.output_due() || summary.steps.empty())
       return;
     const SceneData      data(context.parameters, state.time, field_checks);
     const SceneLoad      load = equations->discretisation.load(data);
@@ -257,7 +256,8 @@ namespace mortise
     summary.status = !report.converged ? "not converged" :
                      !steps.finished() ? "stopped" :
                                          "done";
-    if (!anything_acts(context.parameters) && is_zero(summary.steps.back()))
+    if (!anything_acts(context.parameters) && !summary.steps.empty() &&
+        is_zero(summary.steps.back()))
       context.log.warning(nothing_acts);
   }
 
@@ -290,7 +290,8 @@ namespace mortise
         throw;
       }
     output.write_summary(summary);
-    print_table(context.log, summary.steps.back());
+    if (!summary.steps.empty())
+      print_table(context.log, summary.steps.back());
     if (!output.unwritten().empty())
       throw InputError(
         describe(output.unwritten()) + "\n" +
@@ -303,8 +304,11 @@ namespace mortise
     if (!report.converged && !equations->nonlinear_reason().empty())
       throw ConvergenceError(
         "Newton's method did not converge" + because() +
-        ". The results up to t = " + RunLog::number(steps.time()) +
-        " are written. Take smaller steps (Steps/Step, Steps/Smallest step), or a "
+        (summary.steps.empty() ?
+           ". No equilibrium was reached" :
+           ". The results up to t = " + RunLog::number(steps.time()) +
+             " are written") +
+        ". Take smaller steps (Steps/Step, Steps/Smallest step), or a "
         "smaller load: beyond a largest one there may be no equilibrium");
     if (!report.converged)
       throw ConvergenceError(
