@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <sstream>
 
 namespace mortise
 {
@@ -20,14 +19,6 @@ namespace mortise
          const std::string &allowed)
     {
       throw InputError(where + ": got " + got + "; allowed: " + allowed);
-    }
-
-    std::string
-    text(const double value)
-    {
-      std::ostringstream stream;
-      stream << value;
-      return stream.str();
     }
 
     constexpr const char *modulus_words = "a positive number (force per area) ";
@@ -47,7 +38,7 @@ namespace mortise
       if (!(nu > -1. && (may_be_incompressible ? nu <= 0.5 : nu < 0.5)))
         fail(
           where("Poisson ratio"),
-          text(nu),
+          text_of(nu),
           may_be_incompressible ?
             "a number above -1 and not above 0.5 (at 0.5 a body is incompressible)" :
             "a number above -1 and below 0.5");
@@ -66,7 +57,7 @@ namespace mortise
              modulus_words + allowed_moduli());
       if (!is_modulus(*given.young_modulus))
         fail(where("Young modulus"),
-             text(*given.young_modulus),
+             text_of(*given.young_modulus),
              modulus_words + allowed_moduli());
       check_poisson_ratio(given, may_be_incompressible, where);
       return {*given.young_modulus, given.poisson_ratio, mixed};
@@ -134,12 +125,12 @@ namespace mortise
                        const Where              &where)
     {
       if (!(given.c10 >= 0.))
-        fail(where("C10"), text(given.c10), "0 or a positive number");
+        fail(where("C10"), text_of(given.c10), "0 or a positive number");
       if (!(given.c01 >= 0.))
-        fail(where("C01"), text(given.c01), "0 or a positive number");
+        fail(where("C01"), text_of(given.c01), "0 or a positive number");
       if (!is_modulus(given.c10 + given.c01))
         fail(where("C10"),
-             "C10 + C01 = " + text(given.c10 + given.c01),
+             "C10 + C01 = " + text_of(given.c10 + given.c01),
              modulus_words + allowed_moduli());
       check_poisson_ratio(given, true, where);
       return make_ogden(given,
@@ -160,7 +151,7 @@ namespace mortise
         if (!(term.modulus * term.exponent > 0.) ||
             !is_modulus(term.modulus * term.exponent))
           fail(where("Ogden terms"),
-               text(term.modulus) + ", " + text(term.exponent),
+               text_of(term.modulus) + ", " + text_of(term.exponent),
                allowed);
       check_poisson_ratio(given, true, where);
       return make_ogden(given, given.ogden_terms, mixed);
@@ -384,7 +375,7 @@ namespace mortise
     if (!(parameters.density == 0. || (parameters.density >= smallest_number &&
                                        parameters.density <= largest_number)))
       fail(where("Density"),
-           text(parameters.density),
+           text_of(parameters.density),
            "0 or a positive number (mass per volume) " + allowed_numbers());
     return chosen->make(parameters, mixed, where);
   }

@@ -50,23 +50,18 @@ namespace mortise
     }
   } // namespace
 
-  std::optional<Orthotropic::Defect>
+  std::optional<ConstantDefect>
   Orthotropic::defect() const
   {
     constexpr std::array<const char *, 3> pairs = {{"xy", "yz", "zx"}};
-    const auto                            text  = [](const double value) {
-      std::ostringstream stream;
-      stream << value;
-      return stream.str();
-    };
     for (const auto &[name, moduli] : {std::pair("Young moduli", young_moduli),
                                        std::pair("Shear moduli", shear_moduli)})
       for (const double modulus : moduli)
         if (!(modulus >= smallest_modulus && modulus <= largest_modulus))
-          return Defect{name,
-                        text(modulus),
-                        "three positive numbers (force per area) " +
-                          allowed_moduli()};
+          return ConstantDefect{name,
+                                text_of(modulus),
+                                "three positive numbers (force per area) " +
+                                  allowed_moduli()};
     // nu_ij sqrt(E_j / E_i) are minus the cosines between three directions
     std::array<double, 3> cosine;
     for (unsigned int i = 0; i < 3; ++i)
@@ -76,23 +71,25 @@ namespace mortise
           std::sqrt(young_moduli[i] / young_moduli[(i + 1) % 3]);
         cosine[i] = poisson_ratios[i] / bound;
         if (!(std::fabs(cosine[i]) < 1.))
-          return Defect{"Poisson ratios",
-                        nu + " = " + text(poisson_ratios[i]),
-                        "|" + nu + "| < " + text(bound) + " = sqrt(E_" +
-                          pairs[i][0] + " / E_" + pairs[i][1] + ")"};
+          return ConstantDefect{"Poisson ratios",
+                                nu + " = " + text_of(poisson_ratios[i]),
+                                "|" + nu + "| < " + text_of(bound) +
+                                  " = sqrt(E_" + pairs[i][0] + " / E_" +
+                                  pairs[i][1] + ")"};
       }
     const double determinant = 1. - cosine[0] * cosine[0] -
                                cosine[1] * cosine[1] - cosine[2] * cosine[2] -
                                2. * cosine[0] * cosine[1] * cosine[2];
     if (!(determinant > 1e-12))
-      return Defect{"Poisson ratios",
-                    text(poisson_ratios[0]) + ", " + text(poisson_ratios[1]) +
-                      ", " + text(poisson_ratios[2]) +
-                      ", with which 1 - nu_xy nu_yx - nu_yz nu_zy - nu_zx "
-                      "nu_xz - 2 nu_xy nu_yz nu_zx = " +
-                      text(determinant),
-                    "ratios that make it positive, so that the stiffness is "
-                    "positive definite"};
+      return ConstantDefect{
+        "Poisson ratios",
+        text_of(poisson_ratios[0]) + ", " + text_of(poisson_ratios[1]) + ", " +
+          text_of(poisson_ratios[2]) +
+          ", with which 1 - nu_xy nu_yx - nu_yz nu_zy - nu_zx "
+          "nu_xz - 2 nu_xy nu_yz nu_zx = " +
+          text_of(determinant),
+        "ratios that make it positive, so that the stiffness is "
+        "positive definite"};
     return {};
   }
 

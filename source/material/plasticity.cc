@@ -3,7 +3,6 @@
 #include <mortise/material/voigt.h>
 
 #include <cmath>
-#include <sstream>
 
 namespace mortise
 {
@@ -31,46 +30,45 @@ namespace mortise
     }
   } // namespace
 
-  std::optional<Hardening::Defect>
+  std::optional<ConstantDefect>
   Hardening::defect() const
   {
-    const auto text = [](const double number) {
-      std::ostringstream stream;
-      stream << number;
-      return stream.str();
-    };
     const std::string softening = ": softening is not supported";
     for (const auto &[name, number] :
          {std::pair("Hardening modulus", modulus),
           std::pair("Kinematic hardening modulus", kinematic_modulus),
           std::pair("Saturation exponent", saturation_exponent)})
       if (!(number >= 0. && number <= largest_modulus))
-        return Defect{name, text(number), "0 or a positive number" + softening};
+        return ConstantDefect{name,
+                              text_of(number),
+                              "0 or a positive number" + softening};
     if (!table.empty())
       return defect_of_table();
     if (!(yield_stress >= smallest_modulus && yield_stress <= largest_modulus))
-      return Defect{"Yield stress",
-                    yield_stress == 0. ? "nothing with Law = J2 plasticity" :
-                                         text(yield_stress),
-                    "a positive number (force per area) " + allowed_moduli()};
+      return ConstantDefect{"Yield stress",
+                            yield_stress == 0. ?
+                              "nothing with Law = J2 plasticity" :
+                              text_of(yield_stress),
+                            "a positive number (force per area) " +
+                              allowed_moduli()};
     if (saturation_stress != 0. && !(saturation_stress >= yield_stress))
-      return Defect{"Saturation stress",
-                    text(saturation_stress),
-                    "at least the Yield stress, " + text(yield_stress) +
-                      softening};
+      return ConstantDefect{"Saturation stress",
+                            text_of(saturation_stress),
+                            "at least the Yield stress, " +
+                              text_of(yield_stress) + softening};
     if ((saturation_stress > 0.) != (saturation_exponent > 0.))
-      return Defect{saturation_stress > 0. ? "Saturation exponent" :
-                                             "Saturation stress",
-                    "nothing beside the other one",
-                    "a positive number, or neither"};
+      return ConstantDefect{saturation_stress > 0. ? "Saturation exponent" :
+                                                     "Saturation stress",
+                            "nothing beside the other one",
+                            "a positive number, or neither"};
     return {};
   }
 
-  std::optional<Hardening::Defect>
+  std::optional<ConstantDefect>
   Hardening::defect_of_table() const
   {
     if (yield_stress != 0. || modulus != 0. || saturation_stress != 0.)
-      return Defect{
+      return ConstantDefect{
         "Hardening table",
         "one beside Yield stress, Hardening modulus or Saturation stress",
         "one of both"};
@@ -80,11 +78,9 @@ namespace mortise
         const auto &[alpha, sigma] = table[i];
         if (!(i == 0 ? alpha == 0. : alpha > strain) || !(sigma >= stress))
           {
-            std::ostringstream got;
-            got << '"' << alpha << ", " << sigma << '"';
-            return Defect{
+            return ConstantDefect{
               "Hardening table",
-              got.str(),
+              "\"" + text_of(alpha) + ", " + text_of(sigma) + "\"",
               "\"plastic strain, yield stress; ...\", strains ascending from 0, stresses positive and not descending"};
           }
         strain = alpha;

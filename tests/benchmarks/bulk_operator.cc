@@ -15,40 +15,17 @@
 #include <mortise/operators/matrix_free/tensor_kernel.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <iomanip>
 #include <iostream>
 
+#include "timing.h"
+
 using namespace mortise;
 
 namespace
 {
-  double
-  seconds()
-  {
-    return std::chrono::duration<double>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-  }
-
-  /// Median of the seconds of @p task over some runs.
-  template <typename Task>
-  double
-  median_time(const Task &task)
-  {
-    std::vector<double> times;
-    for (unsigned int run = 0; run < 9; ++run)
-      {
-        const double start = seconds();
-        task();
-        times.push_back(seconds() - start);
-      }
-    std::sort(times.begin(), times.end());
-    return times[times.size() / 2];
-  }
-
   template <typename Number>
   double
   rate(const NodalSpace &space)

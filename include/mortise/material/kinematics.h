@@ -7,8 +7,8 @@
 namespace mortise
 {
   template <typename V>
-  inline V
-  determinant(const V (&a)[3][3])
+  inline __attribute__((always_inline)) V
+  determinant_of(const V (&a)[3][3])
   {
     return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
            a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
@@ -20,13 +20,27 @@ namespace mortise
   inline V
   dilatation(const V (&h)[3][3])
   {
-    V sum = h[0][0] + h[1][1] + h[2][2] + determinant(h);
+    V sum = h[0][0] + h[1][1] + h[2][2] + determinant_of(h);
     for (unsigned int i = 0; i < 3; ++i)
       {
         const unsigned int j = (i + 1) % 3;
         sum += h[i][i] * h[j][j] - h[i][j] * h[j][i];
       }
     return sum;
+  }
+
+  /// @p inverse of @p a, whose determinant is @p det, by cofactors.
+  template <typename V>
+  inline void
+  invert(const V (&a)[3][3], const V &det, V (&inverse)[3][3])
+  {
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        {
+          const unsigned int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3,
+                             s = (j + 2) % 3;
+          inverse[j][i]        = (a[p][r] * a[q][s] - a[p][s] * a[q][r]) / det;
+        }
   }
 
   /// @p inverse: F^{-1} of F = I + h, with J = det F.
@@ -38,14 +52,7 @@ namespace mortise
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
         F[i][j] = i == j ? 1. + h[i][j] : h[i][j];
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        {
-          const unsigned int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3,
-                             d = (j + 2) % 3;
-          // the transposed cofactor
-          inverse[j][i] = (F[a][c] * F[b][d] - F[a][d] * F[b][c]) / J;
-        }
+    invert(F, J, inverse);
   }
 
   /// Eigenvalues @p value and, as columns of @p axes, eigenvectors of the

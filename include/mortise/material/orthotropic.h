@@ -2,6 +2,7 @@
 // fibres.
 #pragma once
 
+#include <mortise/material/constant_defect.h>
 #include <mortise/material/linear_elastic.h>
 
 #include <optional>
@@ -21,14 +22,8 @@ namespace mortise
     /// y, then z.
     std::array<double, 3> axes = {{0., 0., 0.}};
 
-    /// A constant, by its name in a parameter file, that cannot be.
-    struct Defect
-    {
-      std::string constant, got, allowed;
-    };
-
     /// The reason for which the stiffness is not positive definite, if any.
-    std::optional<Defect>
+    std::optional<ConstantDefect>
     defect() const;
 
     /// The law in the axes of the scene.

@@ -4,6 +4,7 @@
 // Miehe, Apel, Lambrecht (2002).
 #pragma once
 
+#include <mortise/material/constant_defect.h>
 #include <mortise/material/logarithmic_law.h>
 
 #include <optional>
@@ -30,13 +31,7 @@ namespace mortise
     /// others but the kinematic modulus.
     std::vector<std::pair<double, double>> table;
 
-    /// A constant, by its name in a parameter file, that cannot be.
-    struct Defect
-    {
-      std::string constant, got, allowed;
-    };
-
-    std::optional<Defect>
+    std::optional<ConstantDefect>
     defect() const;
 
     /// Set @p value = sigma_y(alpha) and @p slope, its derivative.
@@ -46,7 +41,7 @@ namespace mortise
              DoubleBatch       &slope) const;
 
   private:
-    std::optional<Defect>
+    std::optional<ConstantDefect>
     defect_of_table() const;
   };
 

@@ -1,10 +1,7 @@
 #include <deal.II/base/polynomial.h>
-#include <deal.II/base/quadrature_lib.h>
 
-#include <mortise/body/elements/simplex_elements.h>
-#include <mortise/body/elements/simplex_nodes.h>
 #include <mortise/operators/cells/cell_histories.h>
-#include <mortise/operators/matrix_free/simplex_tables.h>
+#include <mortise/operators/matrix_free/cell_batches.h>
 
 #include <algorithm>
 
@@ -15,22 +12,7 @@ namespace mortise
   Quadrature<dim>
   points_of_forces(const Body &body, const unsigned int element)
   {
-    const unsigned int degree = body.fe[element].degree;
-    if (!body.mesh.tetrahedra)
-      return QGauss<dim>(degree + 1);
-    // the same barycentric coordinates by ascending vertices in all cells
-    const auto           &order = SimplexElements::base(body.fe[element]).order;
-    const Quadrature<dim> all   = simplex_rule<double>(degree);
-    std::vector<Point<dim>> points;
-    for (const Point<dim> &ascending : all.get_points())
-      {
-        const auto                  lambda = barycentric_coordinates(ascending);
-        std::array<double, dim + 1> local{};
-        for (unsigned int v = 0; v <= dim; ++v)
-          local[order[v]] = lambda[v];
-        points.emplace_back(local[1], local[2], local[3]);
-      }
-    return {points, all.get_weights()};
+    return cell_rule<double>(body, element, body.fe[element].degree);
   }
 
   namespace

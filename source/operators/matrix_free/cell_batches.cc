@@ -14,6 +14,33 @@ namespace mortise
 {
   using namespace dealii;
 
+  template <typename Number>
+  Quadrature<dim>
+  cell_rule(const Body        &body,
+            const unsigned int element,
+            const unsigned int degree)
+  {
+    if (!body.mesh.tetrahedra)
+      return QGauss<dim>(degree + 1);
+    const auto           &order = SimplexElements::base(body.fe[element]).order;
+    const Quadrature<dim> rule  = simplex_rule<Number>(degree);
+    std::vector<Point<dim>> points;
+    for (const Point<dim> &ascending : rule.get_points())
+      {
+        const auto                  lambda = barycentric_coordinates(ascending);
+        std::array<double, dim + 1> local{};
+        for (unsigned int v = 0; v <= dim; ++v)
+          local[order[v]] = lambda[v];
+        points.emplace_back(local[1], local[2], local[3]);
+      }
+    return {points, rule.get_weights()};
+  }
+
+  template Quadrature<dim>
+  cell_rule<float>(const Body &, unsigned int, unsigned int);
+  template Quadrature<dim>
+  cell_rule<double>(const Body &, unsigned int, unsigned int);
+
   namespace
   {
     /// Owned cells with one element of the body, those with constant Jacobians
@@ -56,7 +83,8 @@ namespace mortise
         , layout(layout)
         , pressures(body.pressure ? pressures : nullptr)
         , degree(space.degree(body, body.fe[element].degree))
-        , quadrature(make_quadrature())
+        , axes(make_axes())
+        , quadrature(cell_rule<Number>(body, element, degree))
         , geometry(body, body.fe[element].reference_cell(), quadrature)
       {
         batches.tetrahedra = body.mesh.tetrahedra;
@@ -133,26 +161,18 @@ namespace mortise
         return SimplexElements::base(body.fe[element]).order;
       }
 
-      /// The rule of the stiffness; on tetrahedra its points have the same
-      /// barycentric coordinates by ascending vertices, whatever their order.
-      Quadrature<dim>
-      make_quadrature()
+      /// Of the coordinates that the kernel differentiates along, by point;
+      /// empty where they are those of the reference cell.
+      std::vector<Tensor<2, dim>>
+      make_axes() const
       {
+        std::vector<Tensor<2, dim>> result;
         if (!body.mesh.tetrahedra)
-          return QGauss<dim>(degree + 1);
-        const Quadrature<dim>   rule = simplex_rule<Number>(degree);
-        std::vector<Point<dim>> points;
-        axes.clear();
+          return result;
+        const Quadrature<dim> rule = simplex_rule<Number>(degree);
         for (const Point<dim> &ascending : rule.get_points())
-          {
-            const auto lambda = barycentric_coordinates(ascending);
-            std::array<double, dim + 1> local{};
-            for (unsigned int v = 0; v <= dim; ++v)
-              local[order()[v]] = lambda[v];
-            points.emplace_back(local[1], local[2], local[3]);
-            axes.push_back(simplex_rule_jacobian(degree, ascending));
-          }
-        return {points, rule.get_weights()};
+          result.push_back(simplex_rule_jacobian(degree, ascending));
+        return result;
       }
 
       /// With derivatives along the edges from the first ascending vertex to
@@ -246,7 +266,7 @@ namespace mortise
       const Utilities::MPI::Partitioner &layout;
       const PressureNodes               *pressures; ///< of this body
       const unsigned int                 degree;
-      std::vector<Tensor<2, dim>>        axes; ///< of the rule on tetrahedra
+      const std::vector<Tensor<2, dim>>  axes; ///< of the rule on tetrahedra
       const Quadrature<dim>              quadrature;
       CellGeometry                       geometry;
       std::vector<unsigned int>          node_order, pressure_order;

@@ -1,13 +1,10 @@
 // Tangents of coarse levels from those at the points of the finest.
 #include <deal.II/base/quadrature_lib.h>
 
-#include <mortise/material/kinematics.h>
 #include <mortise/operators/matrix_free/matrix_free_elasticity.h>
 #include <mortise/operators/matrix_free/simplex_tables.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 namespace mortise
 {
@@ -105,37 +102,15 @@ namespace mortise
                               simplex_rule<Number>(coarse.degree).get_points());
     }
 
-    using Matrix = std::array<std::array<double, dim>, dim>;
-
-    /// The metric at a point, of one cell.
+    /// The metric at a point, of one cell, [a][e].
     template <typename Number>
-    Matrix
+    Tensor<2, dim>
     metric_at(const Number *metric, const unsigned int lane)
     {
-      Matrix result;
+      Tensor<2, dim> result;
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int e = 0; e < dim; ++e)
           result[a][e] = metric[(dim * a + e) * Batch<Number>::size + lane];
-      return result;
-    }
-
-    /// F^{-1} = G^{-1} G_x.
-    Matrix
-    inverse_gradient(const Matrix &G, const Matrix &deformed)
-    {
-      Tensor<2, dim> g;
-      for (unsigned int a = 0; a < dim; ++a)
-        for (unsigned int e = 0; e < dim; ++e)
-          g[a][e] = G[a][e];
-      const Tensor<2, dim> inverse = invert(g);
-      Matrix               result;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int e = 0; e < dim; ++e)
-          {
-            result[i][e] = 0.;
-            for (unsigned int a = 0; a < dim; ++a)
-              result[i][e] += inverse[i][a] * deformed[a][e];
-          }
       return result;
     }
 
@@ -210,32 +185,31 @@ namespace mortise
         for (unsigned int r = 0; r < fine.n_points; ++r)
           {
             const std::size_t at = fine_point(cell, r) * dim * dim * from;
-            inverses.push_back(inverse_gradient(
-              metric_at(&fine.metric[at], cell % from),
-              metric_at(&fine.deformed_metric[at], cell % from)));
+            // F^{-1} = G^{-1} G_x
+            inverses.push_back(
+              invert(metric_at(&fine.metric[at], cell % from)) *
+              metric_at(&fine.deformed_metric[at], cell % from));
           }
         for (unsigned int q = 0; q < points.size(); ++q)
           {
             const std::size_t at = coarse_point(cell, q) * dim * dim * to;
-            const Matrix      G  = metric_at(&coarse.metric[at], cell % to);
-            Matrix            mean{};
+            Tensor<2, dim>    mean;
             for (const auto &[r, weight] : points[q])
-              for (unsigned int i = 0; i < dim; ++i)
-                for (unsigned int e = 0; e < dim; ++e)
-                  mean[i][e] += weight * inverses[r][i][e];
+              mean += weight * inverses[r];
+            const Tensor<2, dim> deformed =
+              metric_at(&coarse.metric[at], cell % to) * mean;
             for (unsigned int a = 0; a < dim; ++a)
               for (unsigned int e = 0; e < dim; ++e)
                 coarse.deformed_metric[at + (dim * a + e) * to + cell % to] =
-                  G[a][0] * mean[0][e] + G[a][1] * mean[1][e] +
-                  G[a][2] * mean[2][e];
+                  deformed[a][e];
           }
       }
 
-      const CellBatches<double> &fine;
-      CellBatches<Number>       &coarse;
-      const Means                points;
-      const unsigned int         n_common;
-      std::vector<Matrix>        inverses;
+      const CellBatches<double>  &fine;
+      CellBatches<Number>        &coarse;
+      const Means                 points;
+      const unsigned int          n_common;
+      std::vector<Tensor<2, dim>> inverses;
     };
   } // namespace
 

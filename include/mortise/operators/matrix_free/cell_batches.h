@@ -20,6 +20,13 @@ namespace mortise
     const dealii::Utilities::MPI::Partitioner &layout; ///< node n has index n
   };
 
+  /// The rule of the stiffness of cells with @p element of a body, with functions
+  /// of @p degree, on the reference cell; on tetrahedra its points have the same
+  /// barycentric coordinates by ascending vertices, whatever their order.
+  template <typename Number>
+  dealii::Quadrature<dim>
+  cell_rule(const Body &body, unsigned int element, unsigned int degree);
+
   /// The cells of one body and degree, computed several at once.
   template <typename Number>
   struct CellBatches

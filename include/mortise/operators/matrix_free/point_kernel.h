@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mortise/base/batch.h>
+#include <mortise/material/kinematics.h>
 #include <mortise/material/law.h>
 
 namespace mortise
@@ -45,16 +46,6 @@ namespace mortise
       for (unsigned int a = 0; a < 3; ++a)
         g[(3 * c + a) * stride] =
           s[c][0] * G[a][0] + s[c][1] * G[a][1] + s[c][2] * G[a][2];
-  }
-
-  /// det(G) of a metric.
-  template <typename V>
-  inline __attribute__((always_inline)) V
-  determinant_of(const V (&G)[3][3])
-  {
-    return G[0][0] * (G[1][1] * G[2][2] - G[1][2] * G[2][1]) -
-           G[0][1] * (G[1][0] * G[2][2] - G[1][2] * G[2][0]) +
-           G[0][2] * (G[1][0] * G[2][1] - G[1][1] * G[2][0]);
   }
 
   /// Contribution of the derivatives with respect to xi_i and xi_j, i <= j, to

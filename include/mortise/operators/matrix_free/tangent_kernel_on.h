@@ -133,21 +133,13 @@ namespace mortise
       const V *deformed =
         reinterpret_cast<const V *>(cells.deformed_metric.data()) +
         number * dim * dim;
-      const V det = determinant_of(G);
+      V of_metric[dim][dim];
+      invert(G, determinant_of(G), of_metric);
       for (unsigned int i = 0; i < dim; ++i)
-        {
-          // row i of G^{-1}, the transposed cofactor
-          V row[dim];
-          for (unsigned int a = 0; a < dim; ++a)
-            {
-              const unsigned int b = (a + 1) % dim, c = (a + 2) % dim,
-                                 j = (i + 1) % dim, k = (i + 2) % dim;
-              row[a] = (G[b][j] * G[c][k] - G[b][k] * G[c][j]) / det;
-            }
-          for (unsigned int e = 0; e < dim; ++e)
-            inverse[i][e] = row[0] * deformed[e] + row[1] * deformed[dim + e] +
-                            row[2] * deformed[2 * dim + e];
-        }
+        for (unsigned int e = 0; e < dim; ++e)
+          inverse[i][e] = of_metric[i][0] * deformed[e] +
+                          of_metric[i][1] * deformed[dim + e] +
+                          of_metric[i][2] * deformed[2 * dim + e];
     }
 
     /// A_iajb = dP_ia / d(Grad u)_jb.
