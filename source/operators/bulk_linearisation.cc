@@ -316,15 +316,23 @@ namespace mortise
   }
 
   void
-  BulkSystem::linearise(const Vector            &u,
-                        const Vector            &p,
+  BulkSystem::linearise(const Iterate           &x,
+                        const Iterate           *previous,
                         const PointHistory      &before,
                         const PointHistory      &thermal,
                         const FollowerPressures *given,
                         const bool               preconditioners)
   {
-    Vector values(u), of_pressure(p);
-    stiffness->complete(values);
+    Vector     values, of_pressure, earlier, earlier_pressure;
+    const auto complete = [&](const Iterate &of, Vector &u, Vector &p) {
+      u = of.displacement;
+      p = of.pressure;
+      stiffness->complete(u);
+      if (pressures)
+        pressures->complete(p);
+      return MatrixFreeElasticity<double>::Fields{u.begin(), p.begin()};
+    };
+    const auto fields = complete(x, values, of_pressure);
     follower.reset();
     positive = true;
     if (given != nullptr)
@@ -333,11 +341,10 @@ namespace mortise
         follower->linearise(values.begin());
         positive = follower_is_symmetric();
       }
-    if (pressures)
-      pressures->complete(of_pressure);
-    stiffness->elasticity().linearise({values.begin(), of_pressure.begin()},
-                                      before,
-                                      thermal);
+    MatrixFreeElasticity<double>::Fields from;
+    if (previous != nullptr)
+      from = complete(*previous, earlier, earlier_pressure);
+    stiffness->elasticity().linearise(fields, before, thermal, from);
     if (!preconditioners)
       return;
     stiffness->diagonal(stiffness_diagonal);

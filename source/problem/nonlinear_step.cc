@@ -188,7 +188,8 @@ namespace mortise
   {
     const bool refresh = least_cost == 0. || !solver.is_ready() ||
                          last_cost > largest_cost * least_cost;
-    discretisation.linearise(x, before, *load, refresh);
+    discretisation.linearise(x, linearised_at, before, *load, refresh);
+    linearised_at = x;
     if (!refresh)
       return;
     solver.update();
@@ -311,7 +312,8 @@ namespace mortise
     contact                   = of_scene;
     before    = last.history.empty() ? system.bulk->no_history() : last.history;
     reference = size = size_before = 0.;
-    why                            = "Newton's method stagnates";
+    linearised_at.reset();
+    why = "Newton's method stagnates";
     if (!norm)
       norm = std::make_unique<ScaledResidual>(system);
     SystemVector x = system.zero_vector();

@@ -4,10 +4,14 @@
 // cubic in the strain and hardens, the product with the tangent is the
 // derivative of the internal force by differences, which are exact for it, and
 // symmetric, and the matrices of cells and the diagonal are those of the
-// product; histories belong to their points. The same on every number of ranks.
+// product; histories belong to their points. At finite strain the product is
+// the derivative of the internal force too, and an initial stress that goes on
+// linearly from another state is right to first order. The same on every number
+// of ranks.
 #include <deal.II/lac/la_parallel_vector.h>
 
-#include <mortise/material/nonlinear_law.h>
+#include <mortise/material/neo_hookean.h>
+#include <mortise/material/principal_laws.h>
 #include <mortise/operators/matrix_free/matrix_free_elasticity.h>
 
 #include <cmath>
@@ -369,6 +373,61 @@ namespace mortise::testing
                        respond(scene, more, u, more.no_history()).force),
             1e-13);
   }
+
+  Field
+  scaled(Field a, const double factor)
+  {
+    a.zero_out_ghost_values();
+    a *= factor;
+    a.update_ghost_values();
+    return a;
+  }
+
+  Field
+  sum(Field a, const Field &b)
+  {
+    a.zero_out_ghost_values();
+    a += b;
+    a.update_ghost_values();
+    return a;
+  }
+
+  void
+  check_finite(const std::string                  &name,
+               const std::string                  &kind,
+               const unsigned int                  p,
+               const std::shared_ptr<NonlinearLaw> law)
+  {
+    const Scene  scene(kind, p, Material(LinearElastic(), law));
+    const double strain  = 0.1 / (p * p); // by the random values of nodes
+    const Field  u       = scaled(scene.random_field(1), strain),
+                v        = scene.random_field(2),
+                w        = scaled(scene.random_field(3), 1e-3 * strain),
+                d        = scaled(scene.random_field(4), strain);
+    Operator      K      = scene.stiffness();
+    const History none   = K.no_history();
+    const auto    fields = [](const Field &of) {
+      return Operator::Fields{const_cast<double *>(of.begin()), nullptr};
+    };
+    K.linearise(fields(u), none);
+    const Field of_w = product(scene, K, w), of_v = product(scene, K, v);
+    verdict(name + ", tangent by differences",
+            difference(derivative(scene, K, u, w, none), of_w),
+            1e-8);
+    verdict(name + ", tangent symmetric",
+            std::fabs(of_w * v / (of_v * w) - 1.),
+            1e-10);
+    // the linear change of the stress is exact to first order
+    const auto change = [&](const double length) {
+      const Field from = sum(u, scaled(d, length));
+      K.linearise(fields(from), none);
+      K.linearise(fields(u), none, {}, fields(from));
+      return difference(product(scene, K, w), of_w);
+    };
+    verdict(name + ", from the same state", change(0.), 1e-13);
+    const double whole = change(1e-2), half = change(5e-3);
+    verdict(name + ", of second order", std::fabs(whole / half - 4.), 0.05);
+  }
 } // namespace mortise::testing
 
 int
@@ -390,5 +449,13 @@ main(int argc, char **argv)
         check_linear(name + "Hooke", kind, p, mortise::LinearElastic{2., 0.3});
         check_linear(name + "orthotropic", kind, p, wood);
         check_cubic(name + "cubic", kind, p);
+        check_finite(name + "neo-Hookean",
+                     kind,
+                     p,
+                     std::make_shared<mortise::NeoHookean>(1.5, 1.));
+        check_finite(name + "St. Venant-Kirchhoff",
+                     kind,
+                     p,
+                     std::make_shared<mortise::StVenantKirchhoff>(1.5, 1.));
       }
 }

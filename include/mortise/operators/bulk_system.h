@@ -210,13 +210,19 @@ namespace mortise
     PointHistory
     thermal_strains(const std::vector<ThermalStrain> &by_body) const;
 
+    struct Iterate
+    {
+      const Vector &displacement, &pressure;
+    };
+
     /// Has K, diagonal() and what preconditioners are made of as derivatives at
-    /// @p u and @p p after @p before, as for respond(); the former ones of
+    /// @p x after @p before, as for respond(); the former ones of
     /// preconditioners alone if @p preconditioners is false. Collective.
-    /// @p pressures: those whose forces depend on u, or null.
+    /// @p pressures: those whose forces depend on u, or null. @p previous: see
+    /// MatrixFreeElasticity::linearise(), or null.
     void
-    linearise(const Vector            &u,
-              const Vector            &p,
+    linearise(const Iterate           &x,
+              const Iterate           *previous,
               const PointHistory      &before,
               const PointHistory      &thermal_strains,
               const FollowerPressures *pressures,

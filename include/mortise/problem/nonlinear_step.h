@@ -13,6 +13,7 @@
 #include <mortise/solvers/scaled_residual.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,14 +96,15 @@ namespace mortise
     std::unique_ptr<ScaledResidual> norm;
 
     // of the present step
-    const SceneLoad     *load    = nullptr;
-    const SceneData     *data    = nullptr;
-    ContactStep         *contact = nullptr; ///< or none
-    PointHistory         before;
-    BulkSystem::Response response;            ///< to the last iterate
-    SystemVector         r;                   ///< forces that are left at it
-    double               reference = 0.;      ///< size of forces
-    double       size = 0., size_before = 0.; ///< of iterates' residuals
+    const SceneLoad            *load    = nullptr;
+    const SceneData            *data    = nullptr;
+    ContactStep                *contact = nullptr; ///< or none
+    PointHistory                before;
+    BulkSystem::Response        response;      ///< to the last iterate
+    SystemVector                r;             ///< forces that are left at it
+    std::optional<SystemVector> linearised_at; ///< of this step, or nothing yet
+    double                      reference = 0.; ///< size of forces
+    double       size = 0., size_before = 0.;   ///< of iterates' residuals
     unsigned int last_iterations = 0;
     /// Iterations of linear solves per digit: of the last, and the least since
     /// preconditioners were made; 0: not yet known.

@@ -92,10 +92,14 @@ namespace mortise
   void
   MatrixFreeElasticity<Number>::linearise(const Fields       &src,
                                           const PointHistory &before,
-                                          const PointHistory &thermal)
+                                          const PointHistory &thermal,
+                                          const Fields       &previous)
   {
     for (unsigned int g = 0; g < groups.size(); ++g)
-      kernels[g]->linearise(groups[g], src, state_of(g, before, thermal));
+      kernels[g]->linearise(groups[g],
+                            src,
+                            previous,
+                            state_of(g, before, thermal));
   }
 
   template <typename Number>

@@ -90,11 +90,19 @@ namespace mortise
                  const Fields       &dst,
                  const PointHistory &thermal_strains = {}) const;
 
-    /// Has K = df/du, and so on, at @p src from here on.
+    /// Has K = df/du, and so on, at @p src from here on. @p previous: where it
+    /// was linearised before by the same state; if given, the initial stress at
+    /// finite strain is that of @p previous and its linear change to @p src
+    /// instead of that of @p src, whose strains have parts of second order in
+    /// the increment. Source: Magisano, Leonetti, Garcea, How to improve
+    /// efficiency and robustness of the Newton method in geometrically
+    /// non-linear structural problem discretized via displacement-based finite
+    /// elements, CMAME 313 (2017), the method of mixed integration points.
     void
     linearise(const Fields       &src,
               const PointHistory &before,
-              const PointHistory &thermal_strains = {});
+              const PointHistory &thermal_strains = {},
+              const Fields       &previous        = {});
 
     /// By group and cell, dP/dGrad u of laws that are not linear where they
     /// were last linearised, averaged over the cell; nothing for others.

@@ -33,7 +33,10 @@ namespace mortise
     }
 
     virtual void
-    linearise(CellBatches<Number> &, const Fields &, const StateOfPoints &)
+    linearise(CellBatches<Number> &,
+              const Fields &,
+              const Fields &,
+              const StateOfPoints &)
     {}
 
     virtual std::vector<Moduli>

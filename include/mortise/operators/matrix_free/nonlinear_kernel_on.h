@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mortise/material/kinematics.h>
+#include <mortise/operators/matrix_free/stressed_point.h>
 #include <mortise/operators/matrix_free/tangent_kernel_on.h>
 
 namespace mortise
@@ -78,28 +79,38 @@ namespace mortise
     void
     linearise(CellBatches<Number> &cells,
               const Fields        &src,
+              const Fields        &previous,
               const StateOfPoints &state) override
     {
       const NonlinearLaw &law     = *cells.nonlinear;
       const bool          finite  = is_finite(law.form());
+      const bool          goes_on = finite && previous.displacement != nullptr;
       const unsigned int  n       = cells.n_numbers();
       V                  *tangent = reinterpret_cast<V *>(cells.tangent.data()),
         *deformed = reinterpret_cast<V *>(cells.deformed_metric.data());
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
+          if (goes_on)
+            keep_stresses(cells, batch, previous, state);
           this->gradients(cells, batch, src.displacement);
           const V *p = nullptr;
           if constexpr (mixed)
             p = this->pressures(cells, batch, src.pressure);
           at_states(cells, batch, state, [&](const auto &at, const Point &is) {
-            V *numbers = tangent + is.number * n;
+            V      *numbers  = tangent + is.number * n;
+            const V pressure = mixed ? p[at.q] : V{};
+            V       tau[dim][dim];
+            if (goes_on)
+              kept[at.q].get_linear(
+                law.form(), numbers, is.volume, is.h, pressure, tau);
+            else if (finite)
+              get_stress(law, is, pressure, tau);
             law.tangent(is.h, is.before, numbers);
             if (finite)
               {
-                V tau[dim][dim], inverse[dim][dim];
-                law.stress(is.h, is.before, nullptr, tau);
+                V inverse[dim][dim];
                 if constexpr (mixed)
-                  add_pressure(law.form(), p[at.q], numbers, tau);
+                  add_pressure(law.form(), pressure, numbers);
                 set_initial_stress(tau, numbers + n_moduli(law.form()));
                 for (unsigned int k = 0; k < n_tangent(law.form()); ++k)
                   numbers[k] *= is.volume;
@@ -223,6 +234,38 @@ namespace mortise
         });
     }
 
+    /// Keeps the stresses of a batch at the previous iterate.
+    void
+    keep_stresses(const CellBatches<Number> &cells,
+                  const unsigned int         batch,
+                  const Fields              &previous,
+                  const StateOfPoints       &state)
+    {
+      this->gradients(cells, batch, previous.displacement);
+      const V *p = nullptr;
+      if constexpr (mixed)
+        p = this->pressures(cells, batch, previous.pressure);
+      kept.resize(cells.n_points);
+      at_states(cells, batch, state, [&](const auto &at, const Point &is) {
+        StressedPoint<Number> &of = kept[at.q];
+        std::memcpy(of.h, is.h, sizeof is.h);
+        of.p = mixed ? p[at.q] : V{};
+        get_stress(*cells.nonlinear, is, of.p, of.tau);
+      });
+    }
+
+    /// tau less the pressure.
+    static void
+    get_stress(const NonlinearLaw &law,
+               const Point        &is,
+               const V            &p,
+               V (&tau)[dim][dim])
+    {
+      law.stress(is.h, is.before, nullptr, tau);
+      for (unsigned int c = 0; c < dim; ++c)
+        tau[c][c] -= p;
+    }
+
     static void
     remove_thermal_strain(const V &strain, const bool finite, Point &is)
     {
@@ -253,13 +296,8 @@ namespace mortise
 
     /// tau = -p I has the moduli 2 p of the symmetric identity.
     static void
-    add_pressure(const TangentForm form,
-                 const V          &p,
-                 V                *moduli,
-                 V (&tau)[dim][dim])
+    add_pressure(const TangentForm form, const V &p, V *moduli)
     {
-      for (unsigned int c = 0; c < dim; ++c)
-        tau[c][c] -= p;
       if (form == TangentForm::isotropic_finite)
         moduli[0] += p;
       else
@@ -276,6 +314,8 @@ namespace mortise
           numbers[3 + c] = tau[(c + 1) % 3][(c + 2) % 3];
         }
     }
+
+    std::vector<StressedPoint<Number>> kept; ///< of one batch
   };
 
   template <typename Number>
