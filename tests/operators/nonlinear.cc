@@ -279,6 +279,24 @@ namespace mortise::testing
             1e-15);
   }
 
+  Field
+  scaled(Field a, const double factor)
+  {
+    a.zero_out_ghost_values();
+    a *= factor;
+    a.update_ghost_values();
+    return a;
+  }
+
+  Field
+  sum(Field a, const Field &b)
+  {
+    a.zero_out_ghost_values();
+    a += b;
+    a.update_ghost_values();
+    return a;
+  }
+
   /// df(u)/du w, exact for forces that are cubic in u.
   Field
   derivative(const Scene    &scene,
@@ -288,15 +306,8 @@ namespace mortise::testing
              const History  &before)
   {
     const auto central = [&](const double step) {
-      Field up = u, down = u;
-      for (const auto &[at, sign] : {std::pair(&up, 1.), std::pair(&down, -1.)})
-        {
-          at->zero_out_ghost_values();
-          at->add(sign * step, w);
-          at->update_ghost_values();
-        }
-      Field result = respond(scene, K, up, before).force;
-      result -= respond(scene, K, down, before).force;
+      Field result = respond(scene, K, sum(u, scaled(w, step)), before).force;
+      result -= respond(scene, K, sum(u, scaled(w, -step)), before).force;
       result /= 2. * step;
       return result;
     };
@@ -304,6 +315,38 @@ namespace mortise::testing
     result *= 4. / 3.;
     result.add(-1. / 3., central(1.));
     return result;
+  }
+
+  Operator::Fields
+  fields(const Field &of) // only read
+  {
+    return {const_cast<double *>(of.begin()), nullptr};
+  }
+
+  struct Directions
+  {
+    const Field &u, &v, &w;
+  };
+
+  /// Linearises @p K at u and returns K w, which must be the derivative of the
+  /// force and symmetric.
+  Field
+  check_tangent(const std::string &name,
+                const Scene       &scene,
+                Operator          &K,
+                const Directions  &at,
+                const History     &before,
+                const double       allowed)
+  {
+    K.linearise(fields(at.u), before);
+    const Field of_w = product(scene, K, at.w), of_v = product(scene, K, at.v);
+    verdict(name + ", tangent by differences",
+            difference(derivative(scene, K, at.u, at.w, before), of_w),
+            allowed);
+    verdict(name + ", tangent symmetric",
+            std::fabs(of_w * at.v / (of_v * at.w) - 1.),
+            1e-10);
+    return of_w;
   }
 
   /// w.Kw by the matrices of cells.
@@ -338,14 +381,7 @@ namespace mortise::testing
     Operator K    = scene.stiffness();
     // the strains of another field, at the same points
     const History before = respond(scene, K, v, K.no_history()).after;
-    K.linearise({const_cast<double *>(u.begin()), nullptr}, before);
-    const Field of_w = product(scene, K, w), of_v = product(scene, K, v);
-    verdict(name + ", tangent by differences",
-            difference(derivative(scene, K, u, w, before), of_w),
-            1e-11);
-    verdict(name + ", tangent symmetric",
-            std::fabs(of_w * v / (of_v * w) - 1.),
-            1e-10);
+    const Field of_w = check_tangent(name, scene, K, {u, v, w}, before, 1e-11);
     verdict(name + ", matrices of cells",
             std::fabs(by_matrices(K, w) / (of_w * w) - 1.),
             1e-11);
@@ -374,24 +410,6 @@ namespace mortise::testing
             1e-13);
   }
 
-  Field
-  scaled(Field a, const double factor)
-  {
-    a.zero_out_ghost_values();
-    a *= factor;
-    a.update_ghost_values();
-    return a;
-  }
-
-  Field
-  sum(Field a, const Field &b)
-  {
-    a.zero_out_ghost_values();
-    a += b;
-    a.update_ghost_values();
-    return a;
-  }
-
   void
   check_finite(const std::string                  &name,
                const std::string                  &kind,
@@ -399,24 +417,14 @@ namespace mortise::testing
                const std::shared_ptr<NonlinearLaw> law)
   {
     const Scene  scene(kind, p, Material(LinearElastic(), law));
-    const double strain  = 0.1 / (p * p); // by the random values of nodes
-    const Field  u       = scaled(scene.random_field(1), strain),
-                v        = scene.random_field(2),
-                w        = scaled(scene.random_field(3), 1e-3 * strain),
-                d        = scaled(scene.random_field(4), strain);
-    Operator      K      = scene.stiffness();
-    const History none   = K.no_history();
-    const auto    fields = [](const Field &of) {
-      return Operator::Fields{const_cast<double *>(of.begin()), nullptr};
-    };
-    K.linearise(fields(u), none);
-    const Field of_w = product(scene, K, w), of_v = product(scene, K, v);
-    verdict(name + ", tangent by differences",
-            difference(derivative(scene, K, u, w, none), of_w),
-            1e-8);
-    verdict(name + ", tangent symmetric",
-            std::fabs(of_w * v / (of_v * w) - 1.),
-            1e-10);
+    const double strain = 0.1 / (p * p); // by the random values of nodes
+    const Field  u      = scaled(scene.random_field(1), strain),
+                v       = scene.random_field(2),
+                w       = scaled(scene.random_field(3), 1e-3 * strain),
+                d       = scaled(scene.random_field(4), strain);
+    Operator      K     = scene.stiffness();
+    const History none  = K.no_history();
+    const Field   of_w  = check_tangent(name, scene, K, {u, v, w}, none, 1e-8);
     // the linear change of the stress is exact to first order
     const auto change = [&](const double length) {
       const Field from = sum(u, scaled(d, length));
