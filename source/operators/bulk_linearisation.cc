@@ -2,6 +2,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/run_log.h>
+#include <mortise/operators/block_system.h>
 #include <mortise/operators/bulk_system.h>
 #include <mortise/operators/cells/cell_geometry.h>
 #include <mortise/operators/follower_pressures.h>
@@ -316,15 +317,15 @@ namespace mortise
   }
 
   void
-  BulkSystem::linearise(const Iterate           &x,
-                        const Iterate           *previous,
+  BulkSystem::linearise(const SystemVector      &x,
+                        const SystemVector      *previous,
                         const PointHistory      &before,
                         const PointHistory      &thermal,
                         const FollowerPressures *given,
                         const bool               preconditioners)
   {
     Vector     values, of_pressure, earlier, earlier_pressure;
-    const auto complete = [&](const Iterate &of, Vector &u, Vector &p) {
+    const auto complete = [&](const SystemVector &of, Vector &u, Vector &p) {
       u = of.displacement;
       p = of.pressure;
       stiffness->complete(u);

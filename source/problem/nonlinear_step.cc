@@ -188,7 +188,8 @@ namespace mortise
   {
     const bool refresh = least_cost == 0. || !solver.is_ready() ||
                          last_cost > largest_cost * least_cost;
-    discretisation.linearise(x, linearised_at, before, *load, refresh);
+    discretisation.linearise(
+      x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
     linearised_at = x;
     if (!refresh)
       return;

@@ -210,19 +210,14 @@ namespace mortise
     PointHistory
     thermal_strains(const std::vector<ThermalStrain> &by_body) const;
 
-    struct Iterate
-    {
-      const Vector &displacement, &pressure;
-    };
-
     /// Has K, diagonal() and what preconditioners are made of as derivatives at
     /// @p x after @p before, as for respond(); the former ones of
     /// preconditioners alone if @p preconditioners is false. Collective.
     /// @p pressures: those whose forces depend on u, or null. @p previous: see
     /// MatrixFreeElasticity::linearise(), or null.
     void
-    linearise(const Iterate           &x,
-              const Iterate           *previous,
+    linearise(const SystemVector      &x,
+              const SystemVector      *previous,
               const PointHistory      &before,
               const PointHistory      &thermal_strains,
               const FollowerPressures *pressures,

@@ -63,18 +63,14 @@ namespace mortise
     /// See BulkSystem::linearise(). LinearSolver::update() must follow if
     /// preconditioners are to change. Collective.
     void
-    linearise(const SystemVector                &x,
-              const std::optional<SystemVector> &previous,
-              const PointHistory                &before,
-              const SceneLoad                   &load,
-              const bool                         preconditioners)
+    linearise(const SystemVector &x,
+              const SystemVector *previous,
+              const PointHistory &before,
+              const SceneLoad    &load,
+              const bool          preconditioners)
     {
-      std::optional<BulkSystem::Iterate> from;
-      if (previous)
-        from.emplace(
-          BulkSystem::Iterate{previous->displacement, previous->pressure});
-      system.bulk->linearise({x.displacement, x.pressure},
-                             from ? &*from : nullptr,
+      system.bulk->linearise(x,
+                             previous,
                              before,
                              load.thermal_strains_at_points,
                              load.follower_pressures.get(),
