@@ -152,13 +152,18 @@ namespace mortise
       return fields.pressures.empty() ? 0. : fields.pressures[q];
     }
 
+    /// Density of the energy of @p change; @p solution is evaluated at finite strain alone.
     double
-    twice_energy(const Material   &material,
-                 const CellFields &fields,
-                 const CellFields &,
-                 const unsigned int q)
+    twice_energy_of_change(const Material    &material,
+                           const CellFields  &change,
+                           const CellFields  &solution,
+                           const unsigned int q)
     {
-      return material.twice_energy(fields.gradients[q], pressure_at(fields, q));
+      return material.twice_energy_of_change(material.has_finite_strain() ?
+                                               solution.gradients[q] :
+                                               Tensor<2, dim>(),
+                                             change.gradients[q],
+                                             pressure_at(change, q));
     }
   } // namespace
 
@@ -168,7 +173,28 @@ namespace mortise
   {
     return integrals_by_cell<1>(bodies,
                                 set_to<1>({{&solutions}}),
-                                twice_energy);
+                                [](const Material   &material,
+                                   const CellFields &fields,
+                                   const CellFields &,
+                                   const unsigned int q) {
+                                  return material.twice_energy(
+                                    fields.gradients[q],
+                                    pressure_at(fields, q));
+                                });
+  }
+
+  NumbersByCell
+  energy_of_changes(const Bodies                    &bodies,
+                    const std::vector<BodySolution> &solutions,
+                    const std::vector<BodySolution> &changes)
+  {
+    const auto set = [&](const Body &body, const auto &cell, auto &fields) {
+      fields[0]->reinit(cell, changes[body.index]);
+      if (body.material.has_finite_strain())
+        fields[1]->reinit(cell, solutions[body.index]);
+      return true;
+    };
+    return integrals_by_cell<2>(bodies, set, twice_energy_of_change);
   }
 
   NumbersByCell
@@ -187,9 +213,11 @@ namespace mortise
                nested_modes(cell->reference_cell(), degree - 1, degree))
             modes[c][i] = 0.;
       fields[0]->reinit(cell, modes);
+      if (body.material.has_finite_strain())
+        fields[1]->reinit(cell, state.coefficients);
       return true;
     };
-    return integrals_by_cell<1>(bodies, set, twice_energy);
+    return integrals_by_cell<2>(bodies, set, twice_energy_of_change);
   }
 
   NumbersByCell

@@ -130,8 +130,9 @@ namespace mortise
     set_coefficients(bodies, solutions, cells);
     if (dual)
       {
-        size = geometric_mean(std::move(size),
-                              energy_by_cell(bodies, dual->solutions));
+        size =
+          geometric_mean(std::move(size),
+                         energy_of_changes(bodies, solutions, dual->solutions));
         set_coefficients(bodies, dual->solutions, cells, &CellState::dual);
       }
     const double norm =
@@ -147,6 +148,8 @@ namespace mortise
                   });
     interface_residuals = std::move(broken);
     set_interface_residuals(norm);
+    for (const auto &[body, cell] : residuals.at_plastic_front)
+      cells[body][cell].history.at_free_boundary = true;
     quantity_is_zero = dual && memory.n_cycles > 0 &&
                        std::fabs(dual->value) <= accuracy * dual->size;
     if (quantity_is_zero || has_unknown_errors(bodies, cells))
@@ -183,8 +186,8 @@ namespace mortise
     for (auto &of_body : cells)
       for (CellState &state : of_body)
         {
-          state.history.violation       = 0.;
-          state.history.at_contact_edge = false;
+          state.history.violation        = 0.;
+          state.history.at_free_boundary = false;
         }
     for (InterfaceResidual &of : interface_residuals)
       {
@@ -193,7 +196,7 @@ namespace mortise
         for (unsigned int k = 0; k < of_body.size(); ++k)
           of_body[k].history.violation += of.of_cells[k];
         for (const auto &[body, cell] : of.at_contact_edge)
-          cells[body][cell].history.at_contact_edge = true;
+          cells[body][cell].history.at_free_boundary = true;
       }
   }
 
@@ -241,12 +244,13 @@ namespace mortise
                               const std::optional<DualSolution> &dual)
   {
     subtract(earlier, solutions);
-    NumbersByCell changes = energy_by_cell(bodies, earlier), own;
+    NumbersByCell changes = energy_of_changes(bodies, solutions, earlier), own;
     if (dual)
       {
         subtract(earlier_dual, dual->solutions);
-        changes = geometric_mean(std::move(changes),
-                                 energy_by_cell(bodies, earlier_dual));
+        changes =
+          geometric_mean(std::move(changes),
+                         energy_of_changes(bodies, solutions, earlier_dual));
       }
     else
       own = own_parts(bodies, changes, cells);

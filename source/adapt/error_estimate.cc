@@ -60,7 +60,7 @@ namespace mortise
             const Body::CellIterator &cell,
             const CellState          &state)
   {
-    if (state.history.at_contact_edge && !state.history.is_new &&
+    if (state.history.at_free_boundary && !state.history.is_new &&
         state.degree >= least_degree_of_decay)
       return false;
     if (body.mesh.tetrahedra && state.history.n_rises > 1 &&

@@ -4,6 +4,7 @@
 #include <mortise/base/lagrange.h>
 #include <mortise/body/elements/simplex_basis.h>
 #include <mortise/body/elements/simplex_quadrature.h>
+#include <mortise/material/nonlinear_law.h>
 
 namespace mortise
 {
@@ -44,33 +45,46 @@ namespace mortise
 
   StressPolynomials::StressPolynomials(const Body               &body,
                                        const FiniteElement<dim> &element)
-    : geometry(body, element.reference_cell(), rule(element))
+    : geometry(body, element.reference_cell(), rule(body, element))
     , element(element.base_element(0))
     , simplex(body.mesh.tetrahedra)
   {
     if (simplex)
-      prepare_tetrahedra();
+      prepare_tetrahedra(body);
     else
-      prepare_hexahedra();
+      prepare_hexahedra(body);
+  }
+
+  namespace
+  {
+    /// Points per direction. Where points remember something, forces are in
+    /// equilibrium at their own points with a plastic front between them, which
+    /// others see.
+    unsigned int
+    n_nodes(const Body &body, const FiniteElement<dim> &element)
+    {
+      const auto &law = body.material.nonlinear();
+      return element.degree + (law && law->n_history() > 0 ? 2 : 1);
+    }
+  } // namespace
+
+  Quadrature<dim>
+  StressPolynomials::nodes(const Body &body, const FiniteElement<dim> &element)
+  {
+    return gauss_quadrature<dim>(element, n_nodes(body, element));
   }
 
   Quadrature<dim>
-  StressPolynomials::nodes(const FiniteElement<dim> &element)
+  StressPolynomials::rule(const Body &body, const FiniteElement<dim> &element)
   {
-    return gauss_quadrature<dim>(element, element.degree + 1);
-  }
-
-  Quadrature<dim>
-  StressPolynomials::rule(const FiniteElement<dim> &element)
-  {
-    return gauss_quadrature<dim>(element, element.degree + 2);
+    return gauss_quadrature<dim>(element, n_nodes(body, element) + 1);
   }
 
   void
-  StressPolynomials::prepare_hexahedra()
+  StressPolynomials::prepare_hexahedra(const Body &body)
   {
-    const Quadrature<1> from = nodes(element).get_tensor_basis()[0],
-                        to   = rule(element).get_tensor_basis()[0];
+    const Quadrature<1> from = nodes(body, element).get_tensor_basis()[0],
+                        to   = rule(body, element).get_tensor_basis()[0];
     line                     = from.get_points();
     to_rule.fill({lagrange_values(from, to), lagrange_derivatives(from, to)});
     for (const double side : {0., 1.})
@@ -78,9 +92,9 @@ namespace mortise
   }
 
   void
-  StressPolynomials::prepare_tetrahedra()
+  StressPolynomials::prepare_tetrahedra(const Body &body)
   {
-    const Quadrature<dim> from = nodes(element), to = rule(element);
+    const Quadrature<dim> from = nodes(body, element), to = rule(body, element);
     const unsigned int    n = element.n_dofs_per_cell(), m = from.size();
     FullMatrix<double>    mass(n, n), moments(n, m), inverse(n, n);
     for (unsigned int q = 0; q < m; ++q)
@@ -108,14 +122,19 @@ namespace mortise
     slopes.mmult(derivatives, projection);
   }
 
+  template <typename StressTensor>
   FullMatrix<double>
-  StressPolynomials::slopes(const std::vector<Stress> &stresses) const
+  StressPolynomials::slopes(const std::vector<StressTensor> &stresses) const
   {
-    constexpr unsigned int n_components = Stress::n_independent_components;
-    FullMatrix<double>     values(stresses.size(), n_components);
-    for (unsigned int k = 0; k < stresses.size(); ++k)
-      for (unsigned int c = 0; c < n_components; ++c)
-        values(k, c) = stresses[k].access_raw_entry(c);
+    constexpr unsigned int n_components =
+      StressTensor::n_independent_components;
+    FullMatrix<double> values(stresses.size(), n_components);
+    for (unsigned int c = 0; c < n_components; ++c)
+      {
+        const auto at = StressTensor::unrolled_to_component_indices(c);
+        for (unsigned int k = 0; k < stresses.size(); ++k)
+          values(k, c) = stresses[k][at];
+      }
     if (simplex)
       {
         FullMatrix<double> result(derivatives.m(), n_components);
@@ -142,9 +161,10 @@ namespace mortise
     return result;
   }
 
+  template <typename StressTensor>
   std::vector<Tensor<1, dim>>
-  StressPolynomials::divergence(const Body::CellIterator  &cell,
-                                const std::vector<Stress> &stresses)
+  StressPolynomials::divergence(const Body::CellIterator        &cell,
+                                const std::vector<StressTensor> &stresses)
   {
     const auto                 &jacobians = geometry.jacobians(cell);
     std::vector<Tensor<1, dim>> result(jacobians.size());
@@ -152,37 +172,39 @@ namespace mortise
     for (const auto &jacobian : jacobians)
       inverse.push_back(invert(jacobian));
     const FullMatrix<double> along = slopes(stresses);
-    for (unsigned int c = 0; c < Stress::n_independent_components; ++c)
+    constexpr bool is_symmetric    = std::is_same<StressTensor, Stress>::value;
+    for (unsigned int c = 0; c < StressTensor::n_independent_components; ++c)
       {
-        const auto at = Stress::unrolled_to_component_indices(c);
+        const auto at = StressTensor::unrolled_to_component_indices(c);
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int q = 0; q < result.size(); ++q)
             {
               const double slope = along(a * result.size() + q, c);
               result[q][at[0]] += slope * inverse[q][at[1]][a];
-              if (at[0] != at[1])
+              if (is_symmetric && at[0] != at[1])
                 result[q][at[1]] += slope * inverse[q][at[0]][a];
             }
       }
     return result;
   }
 
-  std::vector<Stress>
-  StressPolynomials::on_face(const unsigned int         f,
-                             const std::vector<Stress> &stresses) const
+  template <typename StressTensor>
+  std::vector<StressTensor>
+  StressPolynomials::on_face(const unsigned int               f,
+                             const std::vector<StressTensor> &stresses) const
   {
     if (simplex)
       {
-        std::vector<Stress> result(projection.m());
+        std::vector<StressTensor> result(projection.m());
         for (unsigned int i = 0; i < projection.m(); ++i)
           for (unsigned int q = 0; q < projection.n(); ++q)
             result[i] += projection(i, q) * stresses[q];
         return result;
       }
-    const unsigned int  n = line.size(), d = f / 2;
-    const unsigned int  step = d == 0 ? 1 : d == 1 ? n : n * n;
-    const auto         &end  = ends[f % 2];
-    std::vector<Stress> result;
+    const unsigned int        n = line.size(), d = f / 2;
+    const unsigned int        step = d == 0 ? 1 : d == 1 ? n : n * n;
+    const auto               &end  = ends[f % 2];
+    std::vector<StressTensor> result;
     result.reserve(n * n);
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int i = 0; i < n; ++i)
@@ -190,7 +212,7 @@ namespace mortise
           const unsigned int first = d == 0 ? (i + j * n) * n :
                                      d == 1 ? i + j * n * n :
                                               i + j * n;
-          Stress             sum;
+          StressTensor       sum;
           for (unsigned int k = 0; k < n; ++k)
             sum += end[k] * stresses[first + k * step];
           result.push_back(sum);
@@ -213,4 +235,16 @@ namespace mortise
         result.push_back(a * b);
     return result;
   }
+
+  template std::vector<Tensor<1, dim>>
+  StressPolynomials::divergence(const Body::CellIterator &,
+                                const std::vector<Stress> &);
+  template std::vector<Tensor<1, dim>>
+  StressPolynomials::divergence(const Body::CellIterator &,
+                                const std::vector<Tensor<2, dim>> &);
+  template std::vector<Stress>
+  StressPolynomials::on_face(unsigned int, const std::vector<Stress> &) const;
+  template std::vector<Tensor<2, dim>>
+  StressPolynomials::on_face(unsigned int,
+                             const std::vector<Tensor<2, dim>> &) const;
 } // namespace mortise

@@ -21,21 +21,101 @@ namespace mortise
     , thermal_strains(thermal_strains)
   {}
 
+  Tensor<2, 3>
+  ExpressionSolution::elastic_gradient(const Point<3>    &p,
+                                       const unsigned int body) const
+  {
+    const double strain   = thermal_strain(p, body);
+    Tensor<2, 3> gradient = expression.gradient(p);
+    for (unsigned int i = 0; i < 3; ++i)
+      gradient[i][i] -= strain;
+    // F = (1 + strain) F_e
+    return materials[body].has_finite_strain() ? gradient / (1. + strain) :
+                                                 gradient;
+  }
+
+  double
+  ExpressionSolution::pressure_at(const Point<3>    &p,
+                                  const unsigned int body) const
+  {
+    return materials[body].incompressible() ?
+             materials[body].pressure(elastic_gradient(p, body),
+                                      -pressure.value(p) *
+                                        unit_symmetric_tensor<3>()) :
+             0.;
+  }
+
   SymmetricTensor<2, 3>
   ExpressionSolution::stress(const Point<3> &p, const unsigned int body) const
   {
     AssertIndexRange(body, materials.size());
     const Material    &material = materials[body];
-    const Tensor<2, 3> gradient = expression.gradient(p);
+    const Tensor<2, 3> gradient = elastic_gradient(p, body);
     if (!material.incompressible())
-      return material.stress(thermal_strains.empty() ?
-                               gradient :
-                               gradient -
-                                 thermal_strains[body].value(p) *
-                                   Tensor<2, 3>(unit_symmetric_tensor<3>()));
+      return material.nonlinear() ? material.respond(gradient, 0.).cauchy :
+                                    material.stress(gradient);
     // in the mean minus the pressure, whatever the divergence
-    return deviator(material.stress(gradient, 0.)) -
+    return deviator(material.respond(gradient, 0.).cauchy) -
            pressure.value(p) * unit_symmetric_tensor<3>();
+  }
+
+  Tensor<2, 3>
+  ExpressionSolution::nominal_stress(const Point<3>    &p,
+                                     const unsigned int body) const
+  {
+    if (!materials[body].has_finite_strain())
+      return stress(p, body);
+    const double strain = thermal_strain(p, body);
+    return (1. + strain) * (1. + strain) *
+           materials[body]
+             .respond(elastic_gradient(p, body), pressure_at(p, body))
+             .nominal;
+  }
+
+  Tensor<1, 3>
+  ExpressionSolution::nonlinear_body_force(const Point<3>    &p,
+                                           const unsigned int body) const
+  {
+    const Material    &material = materials[body];
+    const bool         finite   = material.has_finite_strain();
+    const Tensor<2, 3> unit(unit_symmetric_tensor<3>()),
+      gradient                 = elastic_gradient(p, body);
+    const double at            = pressure_at(p, body),
+                 stretch       = finite ? 1. + thermal_strain(p, body) : 1.;
+    const auto         hessian = expression.hessian(p);
+    const Tensor<1, 3> strain_slope = thermal_strains.empty() ?
+                                        Tensor<1, 3>() :
+                                        thermal_strains[body].gradient(p);
+    const Tensor<2, 3> nominal      = material.respond(gradient, at).nominal,
+                       without      = material.respond(gradient, 0.).nominal;
+    Tensor<1, 3> force;
+    for (unsigned int j = 0; j < 3; ++j)
+      {
+        Tensor<2, 3> slope;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int k = 0; k < 3; ++k)
+            slope[i][k] = hessian[i][k][j];
+        slope -= strain_slope[j] * (finite ? unit + gradient : unit);
+        slope /= stretch;
+        double pressure_slope = 0.;
+        if (material.incompressible())
+          {
+            // tau = P F^T has the trace 3 (p - mean pressure)
+            Tensor<2, 3> tau = material.nominal_change(gradient, 0., slope, 0.);
+            if (finite)
+              tau =
+                tau * transpose(unit + gradient) + without * transpose(slope);
+            pressure_slope = trace(tau) / 3. + pressure.gradient(p)[j];
+          }
+        Tensor<2, 3> change =
+          material.nominal_change(gradient, at, slope, pressure_slope);
+        if (finite)
+          change = stretch * stretch * change +
+                   2. * stretch * strain_slope[j] * nominal;
+        for (unsigned int i = 0; i < 3; ++i)
+          force[i] -= change[i][j];
+      }
+    return force;
   }
 
   Tensor<1, 3>
@@ -43,6 +123,8 @@ namespace mortise
                                  const unsigned int body) const
   {
     AssertIndexRange(body, materials.size());
+    if (materials[body].nonlinear())
+      return nonlinear_body_force(p, body);
     const Tensor<1, 3> force =
       materials[body].body_force(expression.hessian(p));
     if (materials[body].incompressible())

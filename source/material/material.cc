@@ -4,6 +4,7 @@
 #include <mortise/material/material.h>
 #include <mortise/material/nonlinear_law.h>
 
+#include <cmath>
 
 namespace mortise
 {
@@ -29,6 +30,81 @@ namespace mortise
     return sigma;
   }
 
+  namespace
+  {
+    using Lanes = DoubleBatch[3][3];
+
+    /// One point in all lanes.
+    void
+    spread(const Tensor<2, 3> &tensor, Lanes &result)
+    {
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          result[i][j] = DoubleBatch{} + tensor[i][j];
+    }
+
+    Tensor<2, 3>
+    first_of(const Lanes &lanes)
+    {
+      Tensor<2, 3> result;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          result[i][j] = lanes[i][j][0];
+      return result;
+    }
+
+    Tensor<2, 3>
+    deformation_gradient(const Tensor<2, 3> &gradient)
+    {
+      return Tensor<2, 3>(unit_symmetric_tensor<3>()) + gradient;
+    }
+  } // namespace
+
+  double
+  Material::pressure(const Tensor<2, 3>          &gradient,
+                     const SymmetricTensor<2, 3> &stress) const
+  {
+    const double rest = trace(respond(gradient, 0.).cauchy - stress) / 3.;
+    return has_finite_strain() ?
+             determinant(deformation_gradient(gradient)) * rest :
+             rest;
+  }
+
+  double
+  Material::hooke_energy(const Tensor<2, 3> &gradient,
+                         const double        pressure) const
+  {
+    return scalar_product(Tensor<2, 3>(stress(gradient, 0.)), gradient) +
+           (mixed() ? compressibility() * pressure * pressure : 0.);
+  }
+
+  double
+  Material::twice_energy(const Tensor<2, 3> &gradient,
+                         const double        pressure) const
+  {
+    if (!has_finite_strain())
+      return hooke_energy(gradient, pressure);
+    DoubleBatch h[3][3], strain[3][3], value[3], axes[3][3];
+    spread(gradient, h);
+    right_strain(h, strain);
+    eigensystem(strain, value, axes);
+    Tensor<2, 3> logarithmic;
+    for (unsigned int i = 0; i < 3; ++i)
+      logarithmic[i][i] = 0.5 * std::log1p(value[i][0]);
+    return hooke_energy(logarithmic, pressure);
+  }
+
+  double
+  Material::twice_energy_of_change(const Tensor<2, 3> &gradient,
+                                   const Tensor<2, 3> &change,
+                                   const double        pressure_change) const
+  {
+    return hooke_energy(has_finite_strain() ?
+                          change * invert(deformation_gradient(gradient)) :
+                          change,
+                        pressure_change);
+  }
+
   bool
   Material::has_finite_strain() const
   {
@@ -47,11 +123,8 @@ namespace mortise
         result.nominal = result.cauchy;
         return result;
       }
-    // one point in all lanes
     DoubleBatch h[3][3], s[3][3], inverse[3][3];
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int j = 0; j < 3; ++j)
-        h[i][j] = DoubleBatch{} + gradient[i][j];
+    spread(gradient, h);
     const unsigned int n = nonlinear_law->n_history();
     // vectors of the compiler are aligned
     dealii::AlignedVector<double> numbers(n * Batch<double>::size);
@@ -79,6 +152,42 @@ namespace mortise
                                    s[i][2][0] * inverse[j][2][0];
         }
     return result;
+  }
+
+  Tensor<2, 3>
+  Material::nominal_change(const Tensor<2, 3> &gradient,
+                           const double        pressure,
+                           const Tensor<2, 3> &change,
+                           const double        pressure_change) const
+  {
+    if (!nonlinear_law)
+      return stress(change, pressure_change);
+    const TangentForm form   = nonlinear_law->form();
+    const bool        finite = is_finite(form);
+    DoubleBatch       h[3][3], along[3][3], s[3][3];
+    spread(gradient, h);
+    AlignedVector<double> none(nonlinear_law->n_history() *
+                               Batch<double>::size);
+    const auto *before = reinterpret_cast<const DoubleBatch *>(none.data());
+    DoubleBatch moduli[n_tangent(TangentForm::full_finite)] = {};
+    nonlinear_law->tangent(h, before, moduli);
+    const Tensor<2, 3> inverse =
+      finite ? invert(deformation_gradient(gradient)) : Tensor<2, 3>();
+    const Tensor<2, 3> in_space = finite ? change * inverse : change;
+    spread(in_space, along);
+    with_form(form, [&](const auto of) {
+      // without initial stress
+      TangentAt<double, of()>{moduli}.tangent(Undeformed(), along, s);
+    });
+    Tensor<2, 3> result = first_of(s);
+    if (finite)
+      {
+        nonlinear_law->stress(h, before, nullptr, s);
+        result += in_space * first_of(s) + pressure * transpose(in_space);
+      }
+    for (unsigned int i = 0; i < 3; ++i)
+      result[i][i] -= pressure_change;
+    return finite ? result * transpose(inverse) : result;
   }
 
   Tensor<1, 3>

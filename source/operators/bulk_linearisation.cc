@@ -229,6 +229,10 @@ namespace mortise
           numbers.push_back(
             history[group][(number / width * n + i) * width + number % width]);
       });
+    for (const Body *body : space.bodies())
+      if (body->material.nonlinear() &&
+          body->material.nonlinear()->n_history() > 0)
+        update_ghosts(*body, result[body->index]);
     return result;
   }
 

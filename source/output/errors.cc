@@ -51,14 +51,15 @@ namespace mortise
           const auto stress = exact.stress(x, body.index);
           p       = material.pressure(fields.elastic(gradient, q), stress);
           p_error = fields.pressures[q] - p;
-          const double mean = trace(stress) / dim,
-                       mean_error =
-                         trace(material.stress(gradient_error, p_error)) / dim;
+          const double mean       = trace(stress) / dim,
+                       mean_error = trace(fields.stress(q) - stress) / dim;
           error.pressure += weight * mean_error * mean_error;
           norm.pressure += weight * mean * mean;
           norm.stress += weight * (stress * stress);
         }
-      error.energy += weight * material.twice_energy(gradient_error, p_error);
+      error.energy +=
+        weight *
+        material.twice_energy_of_change(gradient, gradient_error, p_error);
       norm.energy += weight * material.twice_energy(gradient, p);
     }
   } // namespace
@@ -133,7 +134,7 @@ namespace mortise
                   // lambda acts on the master: it is minus the traction on the
                   // slave
                   const auto stress =
-                    exact.stress(face->points[q], tied[n].bearing);
+                    exact.nominal_stress(face->points[q], tied[n].bearing);
                   const Tensor<1, dim> traction   = stress * face->normals[q];
                   Tensor<1, dim>       difference = traction;
                   const auto &rows = couplings[n].multipliers->rows()[s];
@@ -147,7 +148,7 @@ namespace mortise
                       difference[c] = 0.;
                   error += face->weights[q] * difference.norm_square();
                   norm += face->weights[q] * traction.norm_square();
-                  stress_norm += face->weights[q] * (stress * stress);
+                  stress_norm += face->weights[q] * stress.norm_square();
                 }
             }
       }

@@ -215,7 +215,7 @@ namespace mortise
       body, boundary, [&](const auto &, const FieldsOnFace &face) {
         for (unsigned int q = 0; q < face.geometry.points.size(); ++q)
           force += face.geometry.weights[q] *
-                   (exact.stress(face.geometry.points[q], body.index) *
+                   (exact.nominal_stress(face.geometry.points[q], body.index) *
                     face.geometry.normals[q]);
       });
     return Utilities::MPI::sum(force, body.triangulation().get_communicator());

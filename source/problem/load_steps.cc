@@ -17,6 +17,13 @@ namespace mortise
     , length(largest)
   {}
 
+  LoadSteps::LoadSteps(const StepParameters &parameters, const double end)
+    : LoadSteps(parameters, true)
+  {
+    while (times.back() > end)
+      times.pop_back();
+  }
+
   double
   LoadSteps::next() const
   {

@@ -91,9 +91,9 @@ namespace mortise
   }
 
   void
-  NonlinearStep::resume(const SceneLoad   &given,
-                        const SceneValues &values,
-                        State             &state) const
+  NonlinearStep::resume(const SceneLoad                 &given,
+                        const std::vector<BodySolution> &solutions,
+                        State                           &state) const
   {
     const BulkSystem &bulk = *discretisation.linear_system().bulk;
     state.displacement     = state.solution.displacement;
@@ -101,7 +101,7 @@ namespace mortise
     for (const unsigned int i : hanging)
       state.displacement.local_element(i) = 0.;
     std::vector<CellHistories> histories;
-    for (const BodySolution &of_body : values.solutions)
+    for (const BodySolution &of_body : solutions)
       histories.push_back(of_body.history);
     state.history = bulk.by_point(histories);
   }

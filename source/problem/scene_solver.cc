@@ -65,7 +65,7 @@ namespace mortise
     SceneLoad load = discretisation.load(data);
     state.solution = discretisation.system_vector(values, load);
     if (nonlinear)
-      return nonlinear->resume(load, values, state);
+      return nonlinear->resume(load, values.solutions, state);
     preloads.begin(data, load);
     if (contact)
       contact->resume(load, state.solution);
@@ -84,7 +84,15 @@ namespace mortise
     SolveReport &report = result.report;
     preloads.begin(data, load);
     if (nonlinear)
-      report = nonlinear->solve(data, contact.get(), load, last, next);
+      {
+        State first = last;
+        if (!start.empty())
+          {
+            first.solution = discretisation.system_vector(start, load);
+            nonlinear->resume(load, start, first);
+          }
+        report = nonlinear->solve(data, contact.get(), load, first, next);
+      }
     else if (contact)
       report = contact->solve(data, load, next.solution);
     else if (start.empty())

@@ -145,29 +145,37 @@ namespace mortise
     return result;
   }
 
+  SolvedState
+  Simulation::solve_at(const double                     time,
+                       const State                     &last,
+                       const std::vector<BodySolution> &start,
+                       std::optional<SceneData>        &data,
+                       std::optional<SceneLoad>        &load)
+  {
+    data.emplace(context.parameters, time, field_checks);
+    load = equations->discretisation.load(*data);
+    field_checks.throw_if_any(context.comm);
+    check_loads(load->rhs);
+    return equations->solve(*data, last, start, *load);
+  }
+
   void
   Simulation::step(const bool writes)
   {
-    std::optional<SceneData>        data;
-    std::optional<SceneLoad>        load;
-    SolvedState                     next;
-    const std::vector<BodySolution> none;
-    do
-      {
-        if (load)
-          context.log.line("  not converged" + because() + ": half the step");
-        if (!adaptivity)
+    std::optional<SceneData> data;
+    std::optional<SceneLoad> load;
+    SolvedState              next;
+    if (adaptivity)
+      next = solve_in_cycle(data, load);
+    else
+      do
+        {
+          if (load)
+            context.log.line("  not converged" + because() + ": half the step");
           announce_step();
-        data.emplace(context.parameters, steps.next(), field_checks);
-        load = equations->discretisation.load(*data);
-        field_checks.throw_if_any(context.comm);
-        check_loads(load->rhs);
-        next = equations->solve(*data,
-                                state,
-                                adaptivity ? adaptivity->start(bodies) : none,
-                                *load);
-      }
-    while (!next.report.converged && steps.halve());
+          next = solve_at(steps.next(), state, {}, data, load);
+        }
+      while (!next.report.converged && steps.halve());
     report = std::move(next.report);
     if (!report.converged && !equations->nonlinear_reason().empty())
       return write_reached(writes);
@@ -199,17 +207,17 @@ namespace mortise
   Simulation::because() const
   {
     const std::string reason = equations->nonlinear_reason();
-    return reason.empty() ?
-             "" :
-             " from t = " + RunLog::number(steps.time()) + " to " +
-               RunLog::number(steps.next()) + " (" + reason + ")";
+    const LoadSteps  &way    = path ? *path : steps;
+    return reason.empty() ? "" :
+                            " from t = " + RunLog::number(way.time()) + " to " +
+                              RunLog::number(way.next()) + " (" + reason + ")";
   }
 
   void
   Simulation::write_reached(const bool writes)
   {
-    if (!writes || steps.output_due() || summary.steps.empty())
-      return;
+    if (!writes || adaptivity || steps.output_due() || summary.steps.empty())
+      return; // states of other meshes were written with their cycles
     const SceneData      data(context.parameters, state.time, field_checks);
     const SceneLoad      load = equations->discretisation.load(data);
     const StepEvaluation evaluation(context,
@@ -304,10 +312,12 @@ namespace mortise
     if (!report.converged && !equations->nonlinear_reason().empty())
       throw ConvergenceError(
         "Newton's method did not converge" + because() +
-        (summary.steps.empty() ?
-           ". No equilibrium was reached" :
-           ". The results up to t = " + RunLog::number(steps.time()) +
-             " are written") +
+        (summary.steps.empty() ? ". No equilibrium was reached" :
+         adaptivity            ? ". The results of cycle " +
+                        std::to_string(summary.steps.back().cycle) +
+                        " are written" :
+                      ". The results up to t = " +
+                        RunLog::number(steps.time()) + " are written") +
         ". Take smaller steps (Steps/Step, Steps/Smallest step), or a "
         "smaller load: beyond a largest one there may be no equilibrium");
     if (!report.converged)

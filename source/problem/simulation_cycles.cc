@@ -1,7 +1,10 @@
 // The cycles of Simulation: solve, estimate, refine, until the error is small
 // enough.
+#include <mortise/material/nonlinear_law.h>
 #include <mortise/problem/adaptive/dual_solution.h>
 #include <mortise/problem/simulation.h>
+
+#include <algorithm>
 
 namespace mortise
 {
@@ -32,6 +35,45 @@ namespace mortise
         report = dual->report;
         report.method += " of the dual problem";
       }
+  }
+
+  SolvedState
+  Simulation::solve_in_cycle(std::optional<SceneData> &data,
+                             std::optional<SceneLoad> &load)
+  {
+    const auto &start     = adaptivity->start(bodies);
+    const auto  remembers = [](const auto &body) {
+      const auto &law = body->material.nonlinear();
+      return law && law->n_history() > 0;
+    };
+    const bool is_linear =
+      !equations->discretisation.linear_system().bulk->is_nonlinear();
+    SolvedState next;
+    path.reset();
+    if (is_linear || (!start.empty() &&
+                      std::none_of(bodies.begin(), bodies.end(), remembers)))
+      next = solve_at(steps.next(), State(), start, data, load);
+    if (is_linear || next.report.converged)
+      return next;
+    if (load)
+      context.log.line("  not converged" + because() +
+                       ": the path from the beginning");
+    path.emplace(parameters.steps, steps.next());
+    for (State last; !path->finished(); last = next.state)
+      {
+        while (!(next = solve_at(path->next(), last, {}, data, load))
+                  .report.converged)
+          {
+            const std::string where = because();
+            if (!path->halve())
+              return next;
+            context.log.line("  not converged" + where + ": half the step");
+          }
+        path->accept(true);
+        if (!path->finished())
+          context.log.line("  t = " + RunLog::number(path->time()));
+      }
+    return next;
   }
 
   CyclePlan

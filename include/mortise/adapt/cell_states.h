@@ -24,9 +24,9 @@ namespace mortise
     double by_residual = square_by_residual_at_first;
     /// Violation of the laws of interfaces on its slave faces.
     double violation = 0.;
-    /// Part of a face is in contact, part is open: the solution is singular,
-    /// however fast coefficients decay.
-    bool at_contact_edge = false;
+    /// Part of a face is in contact, part is open, or part of the cell has
+    /// yielded: the solution is singular, however fast coefficients decay.
+    bool at_free_boundary = false;
     /// Contribution of the last refinement to the quantity over the change:
     /// between -1 and 1 except in mixed form. One without a quantity.
     double share = 1.;
@@ -49,7 +49,7 @@ namespace mortise
     serialize(Archive &archive, const unsigned int)
     {
       archive &degree &change &error &ratio &by_residual &violation
-        &at_contact_edge &share &fall &least_ratio &n_rises &is_refined
+        &at_free_boundary &share &fall &least_ratio &n_rises &is_refined
           &is_split &is_new;
     }
   };
@@ -95,10 +95,17 @@ namespace mortise
   /// By body and active cell, zero where a cell is not owned.
   using NumbersByCell = std::vector<std::vector<double>>;
 
-  /// Squares of the energy norm (SolutionErrors::energy) of @p solutions.
+  /// Squares of the energy norm (SolutionErrors::energy) of @p solutions, see
+  /// Material::twice_energy().
   NumbersByCell
   energy_by_cell(const Bodies                    &bodies,
                  const std::vector<BodySolution> &solutions);
+
+  /// Of @p changes of @p solutions, see Material::twice_energy_of_change().
+  NumbersByCell
+  energy_of_changes(const Bodies                    &bodies,
+                    const std::vector<BodySolution> &solutions,
+                    const std::vector<BodySolution> &changes);
 
   /// The same for the modes that the last rise of a cell's degree added to
   /// @p states; zero for other cells.

@@ -47,6 +47,9 @@ namespace mortise
     /// Twice the energy of a half-space with the wave number pi p / h for the
     /// errors of prescribed displacements.
     NumbersByCell conditions;
+    /// Body and active cell, of which some points have yielded and some have
+    /// not.
+    std::vector<std::pair<unsigned int, unsigned int>> at_plastic_front;
   };
 
   /// Collective.

@@ -22,20 +22,23 @@ namespace mortise
 
     /// At whose points stresses are given.
     static dealii::Quadrature<dim>
-    nodes(const dealii::FiniteElement<dim> &element);
+    nodes(const Body &body, const dealii::FiniteElement<dim> &element);
 
     /// A finer one for integrals over cells.
     static dealii::Quadrature<dim>
-    rule(const dealii::FiniteElement<dim> &element);
+    rule(const Body &body, const dealii::FiniteElement<dim> &element);
 
     /// At points of rule() on @p cell, a force per volume; @p stresses at nodes().
+    /// @p StressTensor: Stress, or a Tensor of nominal stresses.
+    template <typename StressTensor>
     std::vector<dealii::Tensor<1, dim>>
-    divergence(const Body::CellIterator  &cell,
-               const std::vector<Stress> &stresses);
+    divergence(const Body::CellIterator        &cell,
+               const std::vector<StressTensor> &stresses);
 
     /// Coefficients on face @p f of what has @p stresses at nodes().
-    std::vector<Stress>
-    on_face(unsigned int f, const std::vector<Stress> &stresses) const;
+    template <typename StressTensor>
+    std::vector<StressTensor>
+    on_face(unsigned int f, const std::vector<StressTensor> &stresses) const;
 
     /// By which those of face @p f are to be multiplied at point @p x of the unit cell, which is on it.
     std::vector<double>
@@ -46,13 +49,14 @@ namespace mortise
 
   private:
     void
-    prepare_hexahedra();
+    prepare_hexahedra(const Body &body);
     void
-    prepare_tetrahedra();
+    prepare_tetrahedra(const Body &body);
     /// Derivatives along the axes of the unit cell at rule(), one axis below
     /// the other; a column for each component.
+    template <typename StressTensor>
     dealii::FullMatrix<double>
-    slopes(const std::vector<Stress> &stresses) const;
+    slopes(const std::vector<StressTensor> &stresses) const;
 
     const dealii::FiniteElement<dim> &element;
     const bool                        simplex;

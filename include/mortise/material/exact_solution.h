@@ -26,14 +26,23 @@ namespace mortise
     virtual dealii::SymmetricTensor<2, 3>
     stress(const dealii::Point<3> &p, unsigned int body) const = 0;
 
-    /// Force per volume, -div sigma.
+    /// Per undeformed area, of deformed and undeformed coordinates.
+    virtual dealii::Tensor<2, 3>
+    nominal_stress(const dealii::Point<3> &p, const unsigned int body) const
+    {
+      return stress(p, body);
+    }
+
+    /// Force per undeformed volume, -Div P of the nominal stress P.
     virtual dealii::Tensor<1, 3>
     body_force(const dealii::Point<3> &p, unsigned int body) const = 0;
   };
 
   /// A displacement given by expressions, the same in every body; stresses by
   /// body's material, and the mean pressure where that is incompressible; with
-  /// strains by temperature, the same in all directions, by body.
+  /// strains by temperature, the same in all directions, by body. Materials
+  /// that yield go from zero to the displacement in one step, as is right where
+  /// the stress deviator keeps its direction.
   class ExpressionSolution : public ExactSolution
   {
   public:
@@ -54,10 +63,26 @@ namespace mortise
     }
     dealii::SymmetricTensor<2, 3>
     stress(const dealii::Point<3> &p, unsigned int body) const override;
+    dealii::Tensor<2, 3>
+    nominal_stress(const dealii::Point<3> &p, unsigned int body) const override;
     dealii::Tensor<1, 3>
     body_force(const dealii::Point<3> &p, unsigned int body) const override;
 
   private:
+    double
+    thermal_strain(const dealii::Point<3> &p, const unsigned int body) const
+    {
+      return thermal_strains.empty() ? 0. : thermal_strains[body].value(p);
+    }
+    /// Without the thermal strain.
+    dealii::Tensor<2, 3>
+    elastic_gradient(const dealii::Point<3> &p, unsigned int body) const;
+    /// Of the mixed form, zero except of incompressible materials.
+    double
+    pressure_at(const dealii::Point<3> &p, unsigned int body) const;
+    dealii::Tensor<1, 3>
+    nonlinear_body_force(const dealii::Point<3> &p, unsigned int body) const;
+
     VectorExpression        expression;
     std::vector<Material>   materials;
     Expression              pressure;

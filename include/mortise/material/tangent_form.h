@@ -3,6 +3,8 @@
 
 #include <mortise/base/batch.h>
 
+#include <type_traits>
+
 namespace mortise
 {
   enum class TangentForm
@@ -41,6 +43,28 @@ namespace mortise
   n_tangent(const TangentForm form)
   {
     return n_moduli(form) + (is_finite(form) ? 6 : 0);
+  }
+
+  /// @p visit(form) with the form as a constant.
+  template <typename Visit>
+  void
+  with_form(const TangentForm form, const Visit &visit)
+  {
+    switch (form)
+      {
+        case TangentForm::isotropic_finite:
+          return visit(std::integral_constant<TangentForm,
+                                              TangentForm::isotropic_finite>());
+        case TangentForm::rank_one:
+          return visit(
+            std::integral_constant<TangentForm, TangentForm::rank_one>());
+        case TangentForm::full:
+          return visit(
+            std::integral_constant<TangentForm, TangentForm::full>());
+        case TangentForm::full_finite:
+          return visit(
+            std::integral_constant<TangentForm, TangentForm::full_finite>());
+      }
   }
 
   /// A tangent at one point of several cells.

@@ -15,6 +15,9 @@ namespace mortise
     /// @p divisible: may a step be halved? That is useless in linear scenes.
     LoadSteps(const StepParameters &parameters, bool divisible);
 
+    /// Steps, which may be halved, up to @p end, one of the planned times.
+    LoadSteps(const StepParameters &parameters, double end);
+
     bool
     finished() const
     {

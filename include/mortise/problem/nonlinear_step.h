@@ -41,12 +41,12 @@ namespace mortise
           const State     &last,
           State           &next);
 
-    /// Set the displacement and history of @p state to those of @p values, whose
-    /// solution it has and @p load belongs to. Collective.
+    /// Set the displacement and history of @p state to those of @p solutions, by
+    /// body, whose system vector it has and @p load belongs to. Collective.
     void
-    resume(const SceneLoad   &load,
-           const SceneValues &values,
-           State             &state) const;
+    resume(const SceneLoad                 &load,
+           const std::vector<BodySolution> &solutions,
+           State                           &state) const;
 
     /// Of the last solve().
     const NewtonReport &

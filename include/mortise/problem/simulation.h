@@ -90,6 +90,20 @@ namespace mortise
     /// One step, which is halved if it does not converge and may be halved.
     void
     step(bool writes);
+    /// The state at the end of the step. On the mesh of a cycle nonlinear laws
+    /// go the way there from the beginning, or, where points remember nothing,
+    /// from the solution of the cycle before; linear ones need but one solve.
+    /// @p data and @p load: set to those of the end.
+    SolvedState
+    solve_in_cycle(std::optional<SceneData> &data,
+                   std::optional<SceneLoad> &load);
+    /// @p start: see SceneSolver::solve().
+    SolvedState
+    solve_at(double                           time,
+             const State                     &last,
+             const std::vector<BodySolution> &start,
+             std::optional<SceneData>        &data,
+             std::optional<SceneLoad>        &load);
     /// Set the state to that of the checkpoint in @p directory.
     void
     restore(const std::string &directory);
@@ -107,6 +121,7 @@ namespace mortise
     FieldChecks      field_checks; ///< of the scene
 
     LoadSteps                    steps;
+    std::optional<LoadSteps>     path;    ///< to the next step, in a cycle
     std::string                  restart; ///< directory of a checkpoint
     Bodies                       bodies;
     std::unique_ptr<SceneSolver> equations;

@@ -2,11 +2,13 @@
 
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/simplex_basis.h>
+#include <mortise/material/kinematics.h>
 #include <mortise/material/nonlinear_law.h>
 #include <mortise/operators/cells/cell_fields.h>
 #include <mortise/operators/cells/lobatto_table.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mortise
 {
@@ -161,23 +163,41 @@ namespace mortise
     if (!thermal_strains.empty())
       for (unsigned int c = 0; c < dim; ++c)
         gradient[c][c] -= thermal_strains[q];
-    return gradient;
+    // F = (1 + strain) F_e
+    return body.material.has_finite_strain() && !thermal_strains.empty() ?
+             gradient / (1. + thermal_strains[q]) :
+             gradient;
   }
 
   Material::Response
   CellFields::respond(const unsigned int q) const
   {
-    const double strain = thermal_strains.empty() ? 0. : thermal_strains[q];
-    const bool   finite = body.material.has_finite_strain();
-    // F = (1 + strain) F_e
     Material::Response result =
-      body.material.respond(elastic(gradients[q], q) /
-                              (finite ? 1. + strain : 1.),
+      body.material.respond(elastic(gradients[q], q),
                             pressures.empty() ? 0. : pressures[q],
                             history(q));
-    if (finite)
-      result.nominal *= (1. + strain) * (1. + strain);
+    if (body.material.has_finite_strain() && !thermal_strains.empty())
+      result.nominal *= std::pow(1. + thermal_strains[q], 2);
     return result;
+  }
+
+  double
+  CellFields::missing_dilatation(const unsigned int q) const
+  {
+    const Tensor<2, dim> elastic = this->elastic(gradients[q], q);
+    const NonlinearLaw  *law     = body.material.nonlinear().get();
+    if (law == nullptr)
+      return trace(elastic) + body.material.compressibility() * pressures[q];
+    DoubleBatch h[dim][dim], of_pressure, slope;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        h[i][j] = DoubleBatch{} + elastic[i][j];
+    law->dilatation_of_pressure(DoubleBatch{} + pressures[q],
+                                of_pressure,
+                                slope);
+    return (body.material.has_finite_strain() ? std::log1p(dilatation(h)[0]) :
+                                                trace(elastic)) -
+           of_pressure[0];
   }
 
   const double *

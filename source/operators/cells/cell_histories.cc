@@ -1,4 +1,7 @@
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/polynomial.h>
+
+#include <deal.II/grid/grid_tools.h>
 
 #include <mortise/operators/cells/cell_histories.h>
 #include <mortise/operators/matrix_free/cell_batches.h>
@@ -8,6 +11,21 @@
 namespace mortise
 {
   using namespace dealii;
+
+  void
+  update_ghosts(const Body &body, CellHistories &histories)
+  {
+    using Numbers             = std::vector<double>;
+    const auto &triangulation = body.triangulation();
+    histories.resize(triangulation.n_active_cells());
+    if (Utilities::MPI::n_mpi_processes(triangulation.get_communicator()) > 1)
+      GridTools::exchange_cell_data_to_ghosts<Numbers, Triangulation<dim>>(
+        triangulation,
+        [&](const auto &cell) { return histories[cell->active_cell_index()]; },
+        [&](const auto &cell, const Numbers &received) {
+          histories[cell->active_cell_index()] = received;
+        });
+  }
 
   Quadrature<dim>
   points_of_forces(const Body &body, const unsigned int element)

@@ -1,4 +1,7 @@
 // What scenes with laws of material that are not linear do not have yet.
+#include <mortise/base/quotes.h>
+#include <mortise/base/run_log.h>
+#include <mortise/problem/input/formulation.h>
 #include <mortise/problem/input/interface_law.h>
 
 #include <algorithm>
@@ -43,13 +46,23 @@ namespace mortise
                           "one " + got,
                           "none: preloads know bodies of linear laws alone");
       }
-    if (parameters.adaptivity.target_error)
-      parameters.fail("Adaptivity/Target error",
-                      "one " + got,
-                      "none: estimates know linear laws alone");
-    if (parameters.exact_solution.kind != ExactKind::none)
+    if (!parameters.adaptivity.quantity.empty())
+      parameters.fail("Adaptivity/Quantity",
+                      in_quotes(parameters.adaptivity.quantity) + " " + got,
+                      "nothing, which means the energy norm: quantities know "
+                      "bodies of linear laws alone");
+    const BodyParameters *mixed = nullptr;
+    for (const BodyParameters &any : parameters.bodies)
+      if (!is_linear(any.material) && is_mixed(any) &&
+          any.material.poisson_ratio != 0.5)
+        mixed = &any;
+    if (mixed && parameters.exact_solution.kind == ExactKind::expressions)
       parameters.fail("Exact solution/Displacement",
-                      "one " + got,
-                      "none: exact solutions know linear laws alone");
+                      "expressions with Law = " + mixed->material.law +
+                        " in mixed form with Poisson ratio " +
+                        RunLog::number(mixed->material.poisson_ratio) +
+                        " of body " + mixed->name,
+                      "such a body with Formulation = displacement, or with "
+                      "Poisson ratio 0.5 and an exact Pressure");
   }
 } // namespace mortise

@@ -88,8 +88,9 @@ namespace mortise
                       return !is_linear(body.material);
                     }))
       {
-        parameters.steps.end_time = 1.;
-        parameters.steps.ramp     = true;
+        parameters.steps.ramp = true;
+        if (!parameters.adaptivity.target_error) // whose results have cycles
+          parameters.steps.end_time = 1.;
       }
     return parameters;
   }

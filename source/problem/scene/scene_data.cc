@@ -264,7 +264,7 @@ namespace mortise
                  [=, &watch](const Point<dim>     &x,
                              const Tensor<1, dim> &normal) {
                    return evaluate(field, x, watch, [&](const Point<dim> &p) {
-                     return exact->stress(p, b) * normal;
+                     return exact->nominal_stress(p, b) * normal;
                    });
                  }});
           }
@@ -288,7 +288,8 @@ namespace mortise
         if (boundary.pressure && *boundary.pressure == "exact")
           loads.tractions.push_back(
             {id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
-               return (normal * (exact->stress(x, b) * normal)) * normal;
+               return (normal * (exact->nominal_stress(x, b) * normal)) *
+                      normal;
              }});
         else if (boundary.pressure)
           add_pressure(id,

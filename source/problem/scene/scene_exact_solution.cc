@@ -144,6 +144,12 @@ namespace mortise
         return checks.all(exact->stress(p, body), p, what[2]);
       }
 
+      Tensor<2, 3>
+      nominal_stress(const Point<3> &p, const unsigned int body) const override
+      {
+        return checks.all(exact->nominal_stress(p, body), p, what[2]);
+      }
+
       Tensor<1, 3>
       body_force(const Point<3> &p, const unsigned int body) const override
       {

@@ -57,6 +57,11 @@ namespace mortise
     Material::Response
     respond(unsigned int q) const;
 
+    /// In mixed form the residual of the dilatation at point @p q: ln J or tr e, less what
+    /// belongs to the pressure.
+    double
+    missing_dilatation(unsigned int q) const;
+
     /// The equivalent plastic strain at point @p q, zero of laws without.
     double
     plastic_strain(unsigned int q) const;

@@ -11,8 +11,12 @@
 namespace mortise
 {
   /// Of one body by active cell: [point][number] of NonlinearLaw::n_history()
-  /// numbers, of owned cells; empty for laws that remember nothing.
+  /// numbers, of owned and ghost cells; empty for laws that remember nothing.
   using CellHistories = std::vector<std::vector<double>>;
+
+  /// Set those of ghost cells of @p body. Collective.
+  void
+  update_ghosts(const Body &body, CellHistories &histories);
 
   /// The points at which the internal forces of cells with one element of a
   /// body are integrated, on the reference cell.

@@ -9,28 +9,6 @@
 
 namespace mortise
 {
-  /// @p visit(form) with the form as a constant.
-  template <typename Visit>
-  void
-  with_form(const TangentForm form, const Visit &visit)
-  {
-    switch (form)
-      {
-        case TangentForm::isotropic_finite:
-          return visit(std::integral_constant<TangentForm,
-                                              TangentForm::isotropic_finite>());
-        case TangentForm::rank_one:
-          return visit(
-            std::integral_constant<TangentForm, TangentForm::rank_one>());
-        case TangentForm::full:
-          return visit(
-            std::integral_constant<TangentForm, TangentForm::full>());
-        case TangentForm::full_finite:
-          return visit(
-            std::integral_constant<TangentForm, TangentForm::full_finite>());
-      }
-  }
-
   /// Products with tangents that are kept at points. @p Base: KernelOn or
   /// MixedKernelOn.
   template <typename Number>
