@@ -15,6 +15,7 @@ namespace mortise
         (this->*part).reinit(other.*part, true);
         this->*part = other.*part;
       }
+    time = other.time;
     return *this;
   }
 
@@ -24,6 +25,7 @@ namespace mortise
     for (Vector *part : {&x.displacement, &x.pressure, &x.multiplier})
       if (part->size() > 0)
         *part *= factor;
+    x.time *= factor;
   }
 
   void
@@ -34,6 +36,7 @@ namespace mortise
       x.pressure.add(factor, y.pressure);
     if (x.multiplier.size() > 0)
       x.multiplier.add(factor, y.multiplier);
+    x.time += factor * y.time;
   }
 
   double

@@ -28,6 +28,7 @@ namespace mortise
 
     constexpr FieldKind field_kinds[] = {{"displacements", false},
                                          {"pressures", true}};
+    constexpr FieldKind of_increments = {"increments", false};
 
     std::vector<types::global_dof_index>
     dofs_of(const Body               &body,
@@ -233,6 +234,11 @@ namespace mortise
         if (std::string &bytes = records[kind.section];
             !kind.is_pressure || body->pressure)
           append_cells(*body, values.solutions[body->index], kind, bytes);
+    for (const BodySolution &increment : values.increments)
+      append_cells(*bodies[&increment - values.increments.data()],
+                   increment,
+                   of_increments,
+                   records[of_increments.section]);
     for (const auto &body : bodies)
       if (remembers(*body))
         append_histories(*body,
@@ -291,12 +297,19 @@ namespace mortise
     result.solutions.resize(bodies.size());
     for (const FieldKind &kind : field_kinds)
       fail_if(read_cells(file, kind, block, bodies, result.solutions));
+    if (file.has(of_increments.section))
+      {
+        result.increments.resize(bodies.size());
+        fail_if(
+          read_cells(file, of_increments, block, bodies, result.increments));
+      }
     fail_if(read_histories(file, block, bodies, result.solutions));
     fail_if(read_faces(file, block, couplings, result.multipliers));
-    for (BodySolution &solution : result.solutions)
-      for (BodyVector *values : {&solution.displacement, &solution.pressure})
-        if (values->size() > 0)
-          values->update_ghost_values();
+    for (auto *solutions : {&result.solutions, &result.increments})
+      for (BodySolution &solution : *solutions)
+        for (BodyVector *values : {&solution.displacement, &solution.pressure})
+          if (values->size() > 0)
+            values->update_ghost_values();
     return result;
   }
 } // namespace mortise

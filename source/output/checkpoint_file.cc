@@ -30,7 +30,7 @@ namespace mortise
     };
 
     constexpr char checkpoint_magic[]         = "Mortise state\r\n"; // and '\0'
-    constexpr std::uint64_t checkpoint_format = 6;
+    constexpr std::uint64_t checkpoint_format = 7;
     constexpr std::uint64_t checkpoint_block  = 1 << 22;
 
     std::uint64_t

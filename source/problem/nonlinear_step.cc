@@ -11,13 +11,6 @@ namespace mortise
 
   namespace
   {
-    /// Of the residual of a linear solve, see doc/measurements/nonlinear.md.
-    constexpr double loosest_solve = 0.01;
-
-    /// Of one linear solve; what it has reached then may serve all the same.
-    constexpr unsigned int most_linear_iterations = 100;
-    constexpr double       fair_solve             = 0.5;
-
     constexpr unsigned int most_newton_iterations = 50, most_rises = 20;
 
     /// Residuals that are larger are no rounding.
@@ -41,10 +34,6 @@ namespace mortise
 
     /// Relative to the forces of a step.
     constexpr double largest_residual = 1e3;
-
-    /// Preconditioners are made again where this many times the fewest
-    /// iterations per digit are needed.
-    constexpr double largest_cost = 2.;
   } // namespace
 
   NonlinearStep::NonlinearStep(const RunContext &run,
@@ -62,6 +51,9 @@ namespace mortise
          hanging :
          prescribed)
         .push_back(i);
+    if (run.parameters.steps.by_arc_length)
+      arc.emplace(discretisation.linear_system().bulk->diagonal(),
+                  level.constrained);
     warn_of_kept_normals(run, discretisation);
   }
 
@@ -77,9 +69,9 @@ namespace mortise
   }
 
   SystemVector
-  NonlinearStep::lifted(const Vector &rest) const
+  NonlinearStep::lifted(const SystemVector &given, const Vector &rest) const
   {
-    SystemVector result = r;
+    SystemVector result = given;
     if (rest.linfty_norm() == 0.)
       return result;
     SystemVector forces = discretisation.linear_system().zero_vector();
@@ -93,6 +85,7 @@ namespace mortise
   void
   NonlinearStep::resume(const SceneLoad                 &given,
                         const std::vector<BodySolution> &solutions,
+                        const std::vector<BodySolution> &increments,
                         State                           &state) const
   {
     const BulkSystem &bulk = *discretisation.linear_system().bulk;
@@ -104,6 +97,12 @@ namespace mortise
     for (const BodySolution &of_body : solutions)
       histories.push_back(of_body.history);
     state.history = bulk.by_point(histories);
+    if (!increments.empty())
+      bulk.set_displacement(
+        [&](const auto body, const auto dof) {
+          return increments[body].displacement(dof);
+        },
+        state.path.increment);
   }
 
   void
@@ -123,8 +122,8 @@ namespace mortise
     system.subtract_spring_opening(r.multiplier, x.multiplier);
   }
 
-  double
-  NonlinearStep::residual(const SystemVector &x)
+  bool
+  NonlinearStep::balance(const SystemVector &x)
   {
     const BlockSystem &system = discretisation.linear_system();
     response                  = system.bulk->respond(x.displacement,
@@ -135,7 +134,7 @@ namespace mortise
       {
         why =
           "a cell inverts: " + system.bulk->place_of_least_jacobian(response);
-        return std::numeric_limits<double>::infinity();
+        return false;
       }
     r              = system.zero_vector();
     r.displacement = load->external;
@@ -153,8 +152,18 @@ namespace mortise
       add_interfaces(x);
     for (const unsigned int i : system.bulk->levels().front().constrained)
       r.displacement.local_element(i) = 0.;
+    return true;
+  }
+
+  double
+  NonlinearStep::residual(const SystemVector &x)
+  {
+    if (along != nullptr)
+      set_time(x.time);
+    if (!balance(x))
+      return std::numeric_limits<double>::infinity();
     const Vector rest     = rest_of_prescribed(x);
-    const double reached  = norm->norm(lifted(rest));
+    const double reached  = norm->norm(lifted(r, rest));
     const bool   is_first = reference == 0.;
     if (is_first)
       {
@@ -169,6 +178,9 @@ namespace mortise
     // a body that is prescribed as a whole has no forces that could be left
     if (rest.linfty_norm() > 0. || (is_first && contact != nullptr))
       size = std::max(size, 2. * tolerance);
+    balanced = size <= tolerance;
+    if (along != nullptr)
+      size = std::max(size, arc->rest(x.displacement));
     return size;
   }
 
@@ -184,115 +196,6 @@ namespace mortise
   }
 
   void
-  NonlinearStep::linearise(const SystemVector &x)
-  {
-    const bool refresh = least_cost == 0. || !solver.is_ready() ||
-                         last_cost > largest_cost * least_cost;
-    discretisation.linearise(
-      x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
-    linearised_at = x;
-    if (!refresh)
-      return;
-    solver.update();
-    if (!solver.is_ready())
-      {
-        discretisation.show_tangent(false);
-        solver.update();
-      }
-    norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
-    least_cost = 0.;
-  }
-
-  SolveReport
-  NonlinearStep::solve(SystemVector &x)
-  {
-    return contact != nullptr ? solve_contact(x) : solve_linear(x);
-  }
-
-  SolveReport
-  NonlinearStep::solve_contact(SystemVector &x)
-  {
-    // K (x' + D) = f - f_int + K u and so on for the solution x' without the
-    // prescribed displacements D
-    const BlockSystem &system   = discretisation.linear_system();
-    SystemVector       products = system.zero_vector();
-    Vector             moved(x.displacement);
-    moved -= load->prescribed_at_nodes;
-    if (system.mixed())
-      system.bulk->apply_mixed(products.displacement,
-                               products.pressure,
-                               moved,
-                               x.pressure);
-    else
-      system.bulk->apply_to_constrained(moved, products);
-    system.add_multiplier_force(products.displacement, x.multiplier);
-    SceneLoad linear        = *load;
-    linear.rhs.displacement = r.displacement;
-    linear.rhs.displacement += products.displacement;
-    for (const unsigned int i : system.bulk->levels().front().constrained)
-      linear.rhs.displacement.local_element(i) = 0.;
-    if (system.mixed())
-      {
-        linear.rhs.pressure = r.pressure;
-        linear.rhs.pressure += products.pressure;
-      }
-    SystemVector      solution;
-    const SolveReport report = contact->solve(*data, linear, solution);
-    x                        = solution;
-    x.displacement += load->prescribed_at_nodes;
-    for (const unsigned int i : hanging)
-      x.displacement.local_element(i) = 0.;
-    last_iterations = contact->linear_iterations();
-    least_cost      = 0.; // preconditioners see each state
-    if (!report.converged)
-      why = "contact does not converge";
-    return report;
-  }
-
-  SolveReport
-  NonlinearStep::solve_linear(SystemVector &x)
-  {
-    // choice 2 of Eisenstat and Walker
-    const double ratio = size_before > 0. ? size / size_before : 1.;
-    double       eta   = std::min(loosest_solve, 0.9 * ratio * ratio);
-    eta         = std::max(eta, 0.3 * run.parameters.solver.tolerance / size);
-    eta         = std::min(eta, loosest_solve);
-    size_before = size;
-
-    const Vector     rest            = rest_of_prescribed(x);
-    constexpr double energy_fraction = 3.; // of what another solve improves
-    solver.set_limits(eta,
-                      energy_fraction,
-                      std::min(most_linear_iterations,
-                               run.parameters.solver.max_iterations));
-    const SystemVector forces = lifted(rest);
-    SystemVector       dx;
-    SolveReport        report = solver.solve(forces, dx);
-    if (!report.converged && !discretisation.linear_system().mixed() &&
-        discretisation.linear_system().suits_conjugate_gradients())
-      {
-        // they stop at a negative direction
-        discretisation.note_negative_direction();
-        const unsigned int before_that = report.iterations;
-        report                         = solver.solve(forces, dx);
-        report.iterations += before_that;
-      }
-    if (!report.converged && report.relative_residual < fair_solve)
-      report.converged = true;
-    add_scaled(x, 1., dx);
-    for (const unsigned int i : prescribed) // without rounding
-      x.displacement.local_element(i) =
-        load->prescribed_at_nodes.local_element(i);
-    last_iterations = report.iterations;
-    // a digit of the residual
-    last_cost  = std::max(1u, last_iterations) / -std::log10(eta);
-    least_cost = least_cost == 0. ? last_cost : std::min(least_cost, last_cost);
-    if (!report.converged)
-      why = "the linear solver does not converge";
-    return report;
-  }
-
-  void
   NonlinearStep::print(const unsigned int iteration, const double reached) const
   {
     run.log.line("    Newton " + std::to_string(iteration) + "  residual " +
@@ -300,29 +203,29 @@ namespace mortise
                  std::to_string(last_iterations));
   }
 
+  SystemVector
+  NonlinearStep::first_iterate(const State &last) const
+  {
+    SystemVector x = discretisation.linear_system().zero_vector();
+    if (last.displacement.size() > 0)
+      {
+        x              = last.solution;
+        x.displacement = last.displacement;
+      }
+    x.time = last.time;
+    return x;
+  }
+
   SolveReport
-  NonlinearStep::solve(const SceneData &of_step,
-                       ContactStep     *of_scene,
-                       SceneLoad       &given,
-                       const State     &last,
-                       State           &next)
+  NonlinearStep::iterate(const State &last, SystemVector &x)
   {
     const BlockSystem &system = discretisation.linear_system();
-    load                      = &given;
-    data                      = &of_step;
-    contact                   = of_scene;
     before    = last.history.empty() ? system.bulk->no_history() : last.history;
     reference = size = size_before = 0.;
     linearised_at.reset();
     why = "Newton's method stagnates";
     if (!norm)
       norm = std::make_unique<ScaledResidual>(system);
-    SystemVector x = system.zero_vector();
-    if (last.displacement.size() > 0)
-      {
-        x              = last.solution;
-        x.displacement = last.displacement;
-      }
     NewtonOptions options;
     // problems of contact are solved to the tolerance beside all forces
     options.tolerance =
@@ -337,22 +240,43 @@ namespace mortise
     if (!newton.converged)
       least_cost = 0.; // preconditioners are of a state that is left
 
-    if (given.follower_pressures)
-      given.external +=
-        system.bulk->forces_of(*given.follower_pressures, x.displacement);
-    next.displacement = x.displacement;
-    next.history      = response.history;
-    next.solution     = x;
-    next.solution.displacement -= load->prescribed_at_nodes;
-    for (const unsigned int i : system.bulk->levels().front().constrained)
-      next.solution.displacement.local_element(i) = 0.;
-
     SolveReport report       = newton.linear;
     report.iterations        = newton.linear_iterations;
     report.relative_residual = newton.residual;
     report.attainable        = 0.;
     report.tolerance         = options.tolerance;
     report.converged         = newton.converged;
+    return report;
+  }
+
+  void
+  NonlinearStep::finish(const SystemVector &x, State &next)
+  {
+    const BulkSystem &bulk = *discretisation.linear_system().bulk;
+    if (load->follower_pressures)
+      load->external +=
+        bulk.forces_of(*load->follower_pressures, x.displacement);
+    next.displacement = x.displacement;
+    next.history      = response.history;
+    next.solution     = x;
+    next.solution.displacement -= load->prescribed_at_nodes;
+    for (const unsigned int i : bulk.levels().front().constrained)
+      next.solution.displacement.local_element(i) = 0.;
+  }
+
+  SolveReport
+  NonlinearStep::solve(const SceneData &of_step,
+                       ContactStep     *of_scene,
+                       SceneLoad       &given,
+                       const State     &last,
+                       State           &next)
+  {
+    load                     = &given;
+    data                     = &of_step;
+    contact                  = of_scene;
+    SystemVector      x      = first_iterate(last);
+    const SolveReport report = iterate(last, x);
+    finish(x, next);
     return report;
   }
 } // namespace mortise

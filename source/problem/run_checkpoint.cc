@@ -27,6 +27,8 @@ namespace mortise
                    {"time", checkpoint.state.time},
                    {"longest_step", checkpoint.longest_step},
                    {"n_steps", checkpoint.n_steps},
+                   {"reached", checkpoint.reached},
+                   {"tangent", checkpoint.state.path.tangent},
                    {"steps", steps_to_json(checkpoint.steps)},
                    {"files", checkpoint.files}};
     Sections   result{
@@ -75,6 +77,8 @@ namespace mortise
                                   std::numeric_limits<double>::infinity() :
                                   json_value<double>(json.at("longest_step"));
       checkpoint.n_steps      = json_value<unsigned int>(json.at("n_steps"));
+      checkpoint.reached      = json_value<double>(json.at("reached"));
+      checkpoint.state.path.tangent = json_value<double>(json.at("tangent"));
       checkpoint.steps =
         steps_from_json(json_value<std::string>(json.at("steps")));
       for (const Json &file : list_of(json, "files"))
@@ -85,9 +89,13 @@ namespace mortise
         message << what << value;
         throw std::out_of_range(message.str());
       };
-      const double time = checkpoint.state.time;
-      if (!std::isfinite(time) || time < 0.)
-        refuse("it has reached the time ", time);
+      for (const double time : {checkpoint.state.time, checkpoint.reached})
+        if (!std::isfinite(time))
+          refuse("it has reached the time ", time);
+      if (checkpoint.reached < 0.)
+        refuse("it has reached the time ", checkpoint.reached);
+      if (!(checkpoint.state.path.tangent >= 0.))
+        refuse("it has a tangent of size ", checkpoint.state.path.tangent);
       if (!(checkpoint.longest_step > 0.))
         refuse("it has steps of length ", checkpoint.longest_step);
       for (const auto &[step, time] : checkpoint.files)

@@ -5,26 +5,36 @@ namespace mortise
 {
   void
   RunOutput::write_fields(const LoadSteps      &steps,
+                          const double          time,
                           const StepEvaluation &evaluation,
                           const NumbersByCell  &estimates)
   {
     for (const OutputError &error :
-         files.write(steps.n_done(), steps.time(), evaluation, estimates))
+         files.write(steps.n_done(), time, evaluation, estimates))
       errors.push_back(error);
   }
 
   void
   RunOutput::write_checkpoint(const Sections       &of_run,
+                              const PathState      &path,
                               const StepEvaluation &evaluation,
                               const Bodies         &bodies)
   {
-    const auto stage = run.log.stage(run.timers, "checkpoint");
+    const auto  stage = run.log.stage(run.timers, "checkpoint");
+    SceneValues values{evaluation.solutions(), evaluation.multipliers()};
+    if (path.increment.size() > 0)
+      {
+        SystemVector increment =
+          evaluation.discretisation.linear_system().zero_vector();
+        increment.displacement = path.increment;
+        values.increments =
+          evaluation.discretisation.solutions(SceneLoad(), increment);
+      }
     try
       {
         mortise::write_checkpoint(run.parameters.output.directory,
                                   of_run,
-                                  {evaluation.solutions(),
-                                   evaluation.multipliers()},
+                                  values,
                                   bodies,
                                   evaluation.discretisation.interfaces().all(),
                                   run.comm);

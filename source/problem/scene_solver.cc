@@ -65,7 +65,10 @@ namespace mortise
     SceneLoad load = discretisation.load(data);
     state.solution = discretisation.system_vector(values, load);
     if (nonlinear)
-      return nonlinear->resume(load, values.solutions, state);
+      return nonlinear->resume(load,
+                               values.solutions,
+                               values.increments,
+                               state);
     preloads.begin(data, load);
     if (contact)
       contact->resume(load, state.solution);
@@ -89,7 +92,7 @@ namespace mortise
         if (!start.empty())
           {
             first.solution = discretisation.system_vector(start, load);
-            nonlinear->resume(load, start, first);
+            nonlinear->resume(load, start, {}, first);
           }
         report = nonlinear->solve(data, contact.get(), load, first, next);
       }
@@ -102,6 +105,24 @@ namespace mortise
         next.solution = discretisation.system_vector(start, load);
         report        = preloads.solve(true, load, next.solution);
       }
+    complete(result);
+    return result;
+  }
+
+  SolvedState
+  SceneSolver::solve(const PathStep &step, const State &last, SceneLoad &load)
+  {
+    SolvedState result;
+    result.report = nonlinear->solve(step, load, last, result.state);
+    complete(result);
+    return result;
+  }
+
+  void
+  SceneSolver::complete(SolvedState &solved)
+  {
+    State       &next   = solved.state;
+    SolveReport &report = solved.report;
     if (!discretisation.choice().reason.empty())
       report.preconditioner += "; " + discretisation.choice().reason;
     if (!std::isfinite(report.relative_residual))
@@ -130,7 +151,6 @@ namespace mortise
     if (contact)
       next.contact = contact->records();
     next.shortenings = preloads.shortenings_by_interface();
-    return result;
   }
 
   void

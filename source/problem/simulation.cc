@@ -123,7 +123,7 @@ namespace mortise
     if (context.parameters.steps.given())
       {
         result.step = steps.n_done() + 1;
-        result.time = steps.next();
+        result.time = state.time;
       }
     if (adaptivity)
       result.cycle = adaptivity->n_cycles() - 1;
@@ -145,100 +145,6 @@ namespace mortise
     return result;
   }
 
-  SolvedState
-  Simulation::solve_at(const double                     time,
-                       const State                     &last,
-                       const std::vector<BodySolution> &start,
-                       std::optional<SceneData>        &data,
-                       std::optional<SceneLoad>        &load)
-  {
-    data.emplace(context.parameters, time, field_checks);
-    load = equations->discretisation.load(*data);
-    field_checks.throw_if_any(context.comm);
-    check_loads(load->rhs);
-    return equations->solve(*data, last, start, *load);
-  }
-
-  void
-  Simulation::step(const bool writes)
-  {
-    std::optional<SceneData> data;
-    std::optional<SceneLoad> load;
-    SolvedState              next;
-    if (adaptivity)
-      next = solve_in_cycle(data, load);
-    else
-      do
-        {
-          if (load)
-            context.log.line("  not converged" + because() + ": half the step");
-          announce_step();
-          next = solve_at(steps.next(), state, {}, data, load);
-        }
-      while (!next.report.converged && steps.halve());
-    report = std::move(next.report);
-    if (!report.converged && !equations->nonlinear_reason().empty())
-      return write_reached(writes);
-    state      = std::move(next.state);
-    state.time = steps.next();
-    const StepEvaluation evaluation(context,
-                                    equations->discretisation,
-                                    {*data,
-                                     *load,
-                                     state.solution,
-                                     state.history,
-                                     equations->solved_contact(),
-                                     state.shortenings});
-    {
-      const auto stage = context.log.stage(context.timers, "postprocess");
-      if (adaptivity)
-        estimate_error(evaluation);
-      summary.steps.push_back(summarise(evaluation));
-    }
-    if (is_last_cycle())
-      steps.accept(report.converged);
-    if (writes)
-      write_results(evaluation);
-    if (context.parameters.steps.given() && is_last_cycle())
-      output.print_progress(steps);
-  }
-
-  std::string
-  Simulation::because() const
-  {
-    const std::string reason = equations->nonlinear_reason();
-    const LoadSteps  &way    = path ? *path : steps;
-    return reason.empty() ? "" :
-                            " from t = " + RunLog::number(way.time()) + " to " +
-                              RunLog::number(way.next()) + " (" + reason + ")";
-  }
-
-  void
-  Simulation::write_reached(const bool writes)
-  {
-    if (!writes || adaptivity || steps.output_due() || summary.steps.empty())
-      return; // states of other meshes were written with their cycles
-    const SceneData      data(context.parameters, state.time, field_checks);
-    const SceneLoad      load = equations->discretisation.load(data);
-    const StepEvaluation evaluation(context,
-                                    equations->discretisation,
-                                    {data,
-                                     load,
-                                     state.solution,
-                                     state.history,
-                                     equations->solved_contact(),
-                                     state.shortenings});
-    output.write_fields(steps, evaluation, NumbersByCell());
-  }
-
-  void
-  Simulation::announce_step() const
-  {
-    if (context.parameters.steps.given())
-      context.log.line("step " + std::to_string(steps.n_done() + 1) +
-                       ", t = " + RunLog::number(steps.next()));
-  }
-
   void
   Simulation::march(const bool writes)
   {
@@ -253,8 +159,11 @@ namespace mortise
   Simulation::run_steps(const bool writes)
   {
     if (steps.finished()) // of a run that was continued
-      context.log.line("the end at t = " + RunLog::number(steps.time()) +
-                       " was reached before; another Steps/End time goes on");
+      context.log.line(
+        "the end at t = " + RunLog::number(state.time) +
+        " was reached before; another Steps/End time" +
+        (parameters.steps.by_arc_length ? " or Number of steps" : "") +
+        " goes on");
     else
       discretise();
     if (!steps.finished() && !restart.empty())
@@ -307,7 +216,7 @@ namespace mortise
          adaptivity                  ? "The run was stopped after cycle " +
                         std::to_string(summary.steps.back().cycle) + "; " :
                       "The run was stopped at t = " +
-                        RunLog::number(steps.time()) + "; ") +
+                        RunLog::number(state.time) + "; ") +
         interruption::what_is_complete());
     if (!report.converged && !equations->nonlinear_reason().empty())
       throw ConvergenceError(
@@ -316,8 +225,8 @@ namespace mortise
          adaptivity            ? ". The results of cycle " +
                         std::to_string(summary.steps.back().cycle) +
                         " are written" :
-                      ". The results up to t = " +
-                        RunLog::number(steps.time()) + " are written") +
+                      ". The results up to t = " + RunLog::number(state.time) +
+                        " are written") +
         ". Take smaller steps (Steps/Step, Steps/Smallest step), or a "
         "smaller load: beyond a largest one there may be no equilibrium");
     if (!report.converged)
@@ -338,6 +247,7 @@ namespace mortise
     if (!report.converged || each_cycle ||
         (is_last_cycle() && steps.output_due()))
       output.write_fields(steps,
+                          state.time,
                           evaluation,
                           adaptivity ? adaptivity->errors().by_cell() :
                                        NumbersByCell());
@@ -352,13 +262,23 @@ namespace mortise
       parameters.assignments,
       steps.longest(),
       steps.n_done(),
-      {steps.time(), {}, {}, {}, state.contact, state.shortenings},
+      steps.time(),
+      {state.time,
+       {},
+       {},
+       {},
+       {{}, state.path.tangent},
+       state.contact,
+       state.shortenings},
       adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
         to_bytes(adaptivity->checkpoint()) :
         std::string(),
       summary.steps,
       output.files.written()};
-    output.write_checkpoint(to_sections(checkpoint), evaluation, bodies);
+    output.write_checkpoint(to_sections(checkpoint),
+                            state.path,
+                            evaluation,
+                            bodies);
     summary.status = "running";
     output.write_summary(summary);
   }

@@ -49,7 +49,7 @@ namespace mortise
     const bool is_linear =
       !equations->discretisation.linear_system().bulk->is_nonlinear();
     SolvedState next;
-    path.reset();
+    steps_of_cycle.reset();
     if (is_linear || (!start.empty() &&
                       std::none_of(bodies.begin(), bodies.end(), remembers)))
       next = solve_at(steps.next(), State(), start, data, load);
@@ -58,20 +58,20 @@ namespace mortise
     if (load)
       context.log.line("  not converged" + because() +
                        ": the path from the beginning");
-    path.emplace(parameters.steps, steps.next());
-    for (State last; !path->finished(); last = next.state)
+    steps_of_cycle.emplace(parameters.steps, steps.next());
+    for (State last; !steps_of_cycle->finished(); last = next.state)
       {
-        while (!(next = solve_at(path->next(), last, {}, data, load))
+        while (!(next = solve_at(steps_of_cycle->next(), last, {}, data, load))
                   .report.converged)
           {
             const std::string where = because();
-            if (!path->halve())
+            if (!steps_of_cycle->halve())
               return next;
             context.log.line("  not converged" + where + ": half the step");
           }
-        path->accept(true);
-        if (!path->finished())
-          context.log.line("  t = " + RunLog::number(path->time()));
+        steps_of_cycle->accept(true);
+        if (!steps_of_cycle->finished())
+          context.log.line("  t = " + RunLog::number(steps_of_cycle->time()));
       }
     return next;
   }

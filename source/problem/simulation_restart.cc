@@ -15,11 +15,12 @@ namespace mortise
     all_finite(const SceneValues &values)
     {
       const auto finite = [](const double x) { return std::isfinite(x); };
-      for (const BodySolution &solution : values.solutions)
-        for (const BodyVector *field :
-             {&solution.displacement, &solution.pressure})
-          if (!std::all_of(field->begin(), field->end(), finite))
-            return false;
+      for (const auto *solutions : {&values.solutions, &values.increments})
+        for (const BodySolution &solution : *solutions)
+          for (const BodyVector *field :
+               {&solution.displacement, &solution.pressure})
+            if (!std::all_of(field->begin(), field->end(), finite))
+              return false;
       for (const auto &of_interface : values.multipliers)
         for (const auto &coefficients : of_interface)
           if (!std::all_of(coefficients.begin(), coefficients.end(), finite))
@@ -55,9 +56,15 @@ namespace mortise
                       RunLog::number(*parameters.adaptivity.target_error) +
                         " with the checkpoint of a run without one",
                       "nothing, or a run from the beginning");
+    const bool leaves_path =
+      !parameters.steps.by_arc_length && state.path.tangent > 0.;
     // without steps the end was that of the last cycle
     if (!adaptivity || parameters.steps.given())
-      steps.resume(state.time, checkpoint.n_steps, checkpoint.longest_step);
+      steps.resume(leaves_path ? state.time : checkpoint.reached,
+                   checkpoint.n_steps,
+                   checkpoint.longest_step);
+    if (ends_path())
+      steps.finish();
     if (adaptivity && !steps.finished())
       state.time = steps.next();
     output.begin_at(steps.fraction());

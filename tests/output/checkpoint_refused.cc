@@ -221,7 +221,7 @@ namespace
     other[format_place] = 2;
     check_refused("another format",
                   with_checksum(other),
-                  {"has format 2, allowed is format 6"});
+                  {"has format 2, allowed is format 7"});
     check_refused("no checkpoint", std::string(1000, 'M'), {"no checkpoint"});
     replace(good);
     check_message("no file",

@@ -52,6 +52,28 @@ namespace
   }
 
   void
+  check_path()
+  {
+    StepParameters parameters;
+    parameters.by_arc_length = true;
+    parameters.step          = {0.5};
+    verdict(parameters.times().size() == 100 && parameters.times()[99] == 50.,
+            "along a path: a hundred lengths, whatever the end time");
+    parameters.n_steps = 3;
+    LoadSteps steps(parameters, true);
+    verdict(steps.halve() && steps.next() == 0.25, "a length is halved");
+    steps.accept(true);
+    steps.accept(true);
+    verdict(steps.time() == 0.5 && steps.output_due() && !steps.finished(),
+            "two halves are one step");
+    steps.accept(true);
+    steps.finish();
+    verdict(steps.finished() && steps.output_due() && steps.fraction() == 1. &&
+              steps.time() == 1.,
+            "a path ends where the end time is reached");
+  }
+
+  void
   check_planned()
   {
     StepParameters parameters = planned({0.1, 0.3, 1., 1.5, 2.});
@@ -164,6 +186,7 @@ int
 main()
 {
   check_times();
+  check_path();
   check_planned();
   check_halving();
   check_rounding();

@@ -107,6 +107,14 @@ disturbed cycles 1e-4 "${targets[@]}" "${corner[@]}"
 disturbed meshes 1e-4 "${targets[@]}" "${corner[@]}" --set "Body upper/Mesh/File=$prm/../meshes/l_shape_tet.geo" \
   --set "Body upper/Mesh/Mesh size=0.7"
 
+# along a path beyond its largest load, whose times the program finds
+balloon=$prm/../tests/field/balloon_past_its_maximum.prm
+on 1 --output "$work/path-whole" "$balloon" --set "Steps/Number of steps=10"
+on 2 --output "$work/path-parts" "$balloon" --set "Steps/Number of steps=8" --set "Output/Checkpoint every=8"
+on 3 --restart "$work/path-parts" --set "Steps/Number of steps=10"
+verdict "path: to the largest load on 2 ranks, then beyond it on 3" '[ $code -eq 0 ]' \
+  "grep -q 'continued from t = 0.8164' $work/log" "same $work/path-whole $work/path-parts 1e-6"
+
 scene=$work/generator-parts
 refused() { # WHAT PATTERN OPTION...
   local what=$1 pattern=$2

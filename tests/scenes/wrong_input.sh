@@ -82,6 +82,14 @@ expect 2 'Ogden terms.*got 1, -2' "$scene" --set "${material}Law=Ogden" --set "$
   --set "${material}Ogden terms=1, -2"
 expect 2 'Pressure follows.*or a law of finite strain' "$scene" --set 'Body upper/Boundary zmax/Pressure=1' \
   --set 'Body upper/Boundary zmax/Pressure follows=true'
+steps=(--set 'Steps/Control=arc length' --set 'Steps/Step=0.1')
+expect 2 'Control.*with bodies of linear laws alone' "$scene" "${steps[@]}"
+expect 2 'Control.*arc length with Law = contact of interface glue' "$scene" "${steps[@]}" --set "${material}Law=neo-Hookean" \
+  --set 'Interface glue/Law=contact'
+expect 2 'Steps/Step.*got several times with Control = arc length' "$prm/balloon.prm" "${steps[@]}" --set 'Steps/Step=0.1, 0.2' --set 'Steps/End time='
+expect 2 'Number of steps.*got 3 with Control = load' "$scene" --set 'Steps/Number of steps=3'
+expect 2 'where nothing that acts depends on t' "$prm/balloon.prm" "${steps[@]}" \
+  --set 'Body inner/Boundary inside/Pressure=0.1'
 expect 2 'friction knows bodies of linear laws alone' "$scene" --set "${material}Law=neo-Hookean" --set 'Interface glue/Law=contact' \
   --set 'Interface glue/Friction coefficient=0.3'
 expect 2 'only Law = tie' "$scene" --set 'Interface glue/Preload=1' --set 'Interface glue/Law=slide'

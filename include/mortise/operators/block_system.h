@@ -27,6 +27,7 @@ namespace mortise
   struct SystemVector
   {
     Vector displacement, pressure, multiplier;
+    double time = 0.; ///< of the loads, an unknown with arc-length control
 
     SystemVector()                     = default;
     SystemVector(const SystemVector &) = default;

@@ -18,6 +18,10 @@ namespace mortise
 
     /// By interface and owned slave face, as of multiplier_coefficients().
     std::vector<std::vector<std::vector<double>>> multipliers;
+
+    /// By body, displacements of the last step with arc-length control; or
+    /// empty.
+    std::vector<BodySolution> increments = {};
   };
 
   /// Write checkpoint_file_name(), whole or not at all: until the new one is

@@ -8,7 +8,8 @@
 namespace mortise
 {
   /// The planned times with steps between them: a step that fails is halved,
-  /// after an easy one the length is doubled.
+  /// after an easy one the length is doubled. With arc-length control all of
+  /// them are lengths along the path.
   class LoadSteps
   {
   public:
@@ -49,11 +50,19 @@ namespace mortise
       return at_planned && (n_planned % output_every == 0 || finished());
     }
 
-    /// Fraction of the end time that was reached.
+    /// Fraction of the last of the times that was reached.
     double
     fraction() const
     {
-      return reached / times.back();
+      return finished() ? 1. : reached / times.back();
+    }
+
+    /// The step that was accepted last ends the run.
+    void
+    finish()
+    {
+      n_planned  = times.size();
+      at_planned = true;
     }
 
     /// The step to next() has converged, with few iterations if @p easy.

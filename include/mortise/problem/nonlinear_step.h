@@ -4,6 +4,7 @@
 // tangent, since cells beside boundaries that move alone would invert.
 #pragma once
 
+#include <mortise/problem/arc_length.h>
 #include <mortise/problem/contact/contact_step.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/scene/discretisation.h>
@@ -12,6 +13,7 @@
 #include <mortise/solvers/newton.h>
 #include <mortise/solvers/scaled_residual.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +21,15 @@
 
 namespace mortise
 {
+  /// A step with arc-length control.
+  struct PathStep
+  {
+    double length; ///< see ArcLength
+    double end;    ///< the step ends at this time at the latest
+    /// Loads at a time. Collective.
+    std::function<SceneLoad(double)> load_at;
+  };
+
   class NonlinearStep : private NonlinearProblem
   {
   public:
@@ -41,11 +52,22 @@ namespace mortise
           const State     &last,
           State           &next);
 
+    /// The same with arc-length control, without contact; sets the time and
+    /// path of @p next, too. @p load becomes that of this time. Collective;
+    /// throws InputError where nothing depends on time.
+    SolveReport
+    solve(const PathStep &step,
+          SceneLoad      &load,
+          const State    &last,
+          State          &next);
+
     /// Set the displacement and history of @p state to those of @p solutions, by
-    /// body, whose system vector it has and @p load belongs to. Collective.
+    /// body, whose system vector it has and @p load belongs to, and its path to
+    /// that of @p increments, see SceneValues. Collective.
     void
     resume(const SceneLoad                 &load,
            const std::vector<BodySolution> &solutions,
+           const std::vector<BodySolution> &increments,
            State                           &state) const;
 
     /// Of the last solve().
@@ -73,9 +95,33 @@ namespace mortise
     solve_linear(SystemVector &x);
     SolveReport
     solve_contact(SystemVector &x);
-    /// r less the forces of what is left of prescribed displacements.
+    /// Set @p dx to the increments of displacements and time for arc-length
+    /// control at @p x, whose prescribed displacements lack @p rest.
+    SolveReport
+    solve_bordered(const SystemVector &x, const Vector &rest, SystemVector &dx);
+    /// The same forces as in solve_bordered(), per time.
     SystemVector
-    lifted(const Vector &rest) const;
+    rate_of_forces(const SystemVector &x);
+    /// Of linear solves.
+    void
+    set_tolerance(double eta);
+    SolveReport
+    solve_tangent(const SystemVector &forces, SystemVector &dx);
+    /// Newton's method from @p x.
+    SolveReport
+    iterate(const State &last, SystemVector &x);
+    /// Set @p next and the forces of the load to those of the last iterate.
+    void
+    finish(const SystemVector &x, State &next);
+    SystemVector
+    first_iterate(const State &last) const;
+    /// Set the response to @p x and r without what prescribed displacements
+    /// lack; false if a cell inverts.
+    bool
+    balance(const SystemVector &x);
+    /// @p forces less those of what is left of prescribed displacements.
+    SystemVector
+    lifted(const SystemVector &forces, const Vector &rest) const;
     /// Add forces of multipliers to r, and set its gaps.
     void
     add_interfaces(const SystemVector &x);
@@ -85,6 +131,9 @@ namespace mortise
     /// What is left of prescribed displacements.
     Vector
     rest_of_prescribed(const SystemVector &x) const;
+    /// With arc-length control: let the load be that at @p time.
+    void
+    set_time(double time);
     void
     print(unsigned int iteration, double residual) const;
 
@@ -94,17 +143,21 @@ namespace mortise
     /// Indices of owned components that are prescribed.
     std::vector<unsigned int>       prescribed, hanging;
     std::unique_ptr<ScaledResidual> norm;
+    std::optional<ArcLength>        arc; ///< with arc-length control
 
     // of the present step
-    const SceneLoad            *load    = nullptr;
+    SceneLoad                  *load    = nullptr;
     const SceneData            *data    = nullptr;
     ContactStep                *contact = nullptr; ///< or none
+    const PathStep             *along   = nullptr; ///< without: time is given
     PointHistory                before;
     BulkSystem::Response        response;      ///< to the last iterate
     SystemVector                r;             ///< forces that are left at it
     std::optional<SystemVector> linearised_at; ///< of this step, or nothing yet
     double                      reference = 0.; ///< size of forces
     double       size = 0., size_before = 0.;   ///< of iterates' residuals
+    double       time_of_load    = 0.;          ///< with arc-length control
+    bool         balanced        = false; ///< the iterate, but for its distance
     unsigned int last_iterations = 0;
     /// Iterations of linear solves per digit: of the last, and the least since
     /// preconditioners were made; 0: not yet known.

@@ -19,6 +19,7 @@ namespace mortise
 
     double       longest_step = 0.; ///< see LoadSteps; may be infinite
     unsigned int n_steps      = 0;  ///< accepted
+    double       reached      = 0.; ///< time or length, see LoadSteps
     State        state;             ///< without its solution
     std::string  adaptivity;        ///< bytes of CycleCheckpoint
     std::vector<StepSummary>                     steps;

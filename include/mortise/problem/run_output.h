@@ -19,17 +19,19 @@ namespace mortise
       , run(run)
     {}
 
-    /// The fields of a step, see FieldFiles. Collective, as all functions
+    /// The fields of the last of @p steps, at @p time, see FieldFiles. Collective, as all functions
     /// below.
     void
     write_fields(const LoadSteps      &steps,
+                 double                time,
                  const StepEvaluation &evaluation,
                  const NumbersByCell  &estimates);
 
     /// @p of_run: sections of the driver, beside the values of @p evaluation on
-    /// @p bodies.
+    /// @p bodies and the increment of @p path.
     void
     write_checkpoint(const Sections       &of_run,
+                     const PathState      &path,
                      const StepEvaluation &evaluation,
                      const Bodies         &bodies);
 

@@ -48,6 +48,11 @@ namespace mortise
           const std::vector<BodySolution> &start,
           SceneLoad                       &load);
 
+    /// The same with arc-length control: @p load becomes that of the time that
+    /// is reached. Collective; throws InputError.
+    SolvedState
+    solve(const PathStep &step, const State &last, SceneLoad &load);
+
     /// Add the reports of the last solve(), with solution @p solution, to
     /// @p summary.
     void
@@ -83,6 +88,10 @@ namespace mortise
     Preloads                      preloads;
 
   private:
+    /// Check and report a solve, and add contact and preloads to its state.
+    void
+    complete(SolvedState &solved);
+
     const RunContext            &run;
     std::unique_ptr<ContactStep> contact; ///< null without
     /// Null where all laws of material are linear.

@@ -78,6 +78,9 @@ namespace mortise
     cycle_plan() const;
     bool
     is_last_cycle() const;
+    /// Is the end time reached with arc-length control?
+    bool
+    ends_path() const;
     void
     announce_step() const;
     /// Why the last step of a scene with nonlinear laws did not converge, as a
@@ -87,6 +90,12 @@ namespace mortise
     /// If @p writes, the fields of the last step that did converge.
     void
     write_reached(bool writes);
+    /// @p data becomes that of this time, too.
+    SceneLoad
+    load_at(double time, std::optional<SceneData> &data);
+    /// The next step; @p data and @p load become those at its end.
+    SolvedState
+    solve_step(std::optional<SceneData> &data, std::optional<SceneLoad> &load);
     /// One step, which is halved if it does not converge and may be halved.
     void
     step(bool writes);
@@ -121,8 +130,8 @@ namespace mortise
     FieldChecks      field_checks; ///< of the scene
 
     LoadSteps                    steps;
-    std::optional<LoadSteps>     path;    ///< to the next step, in a cycle
-    std::string                  restart; ///< directory of a checkpoint
+    std::optional<LoadSteps>     steps_of_cycle; ///< of nonlinear laws
+    std::string                  restart;        ///< directory of a checkpoint
     Bodies                       bodies;
     std::unique_ptr<SceneSolver> equations;
     std::optional<Adaptivity>    adaptivity; ///< with a target

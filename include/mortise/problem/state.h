@@ -9,6 +9,15 @@
 
 namespace mortise
 {
+  /// How a path goes on, see ArcLength.
+  struct PathState
+  {
+    /// Of the displacement in the last step, zero at constrained components;
+    /// empty before.
+    Vector increment;
+    double tangent = 0.; ///< size of the first one; 0 before
+  };
+
   /// After the last accepted step.
   struct State
   {
@@ -18,6 +27,7 @@ namespace mortise
     /// prescribed values, zero where nodes hang, and what points remember.
     Vector       displacement;
     PointHistory history;
+    PathState    path; ///< with arc-length control
     /// Absent before it is known; before the first step a guess.
     std::optional<ContactRecords> contact;
     /// By interface, the shortening of its preload, a length; empty before the

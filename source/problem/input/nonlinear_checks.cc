@@ -22,11 +22,21 @@ namespace mortise
                           "true with Law = " + any.material.law +
                             " at small strain",
                           "auto or false, or a law of finite strain");
-    const auto body = std::find_if(parameters.bodies.begin(),
+    const auto        body      = std::find_if(parameters.bodies.begin(),
                                    parameters.bodies.end(),
                                    [](const BodyParameters &any) {
                                      return !is_linear(any.material);
                                    });
+    const std::string control   = "Steps/Control";
+    const bool        by_length = parameters.steps.by_arc_length;
+    if (by_length && parameters.adaptivity.target_error)
+      parameters.fail(control,
+                      "arc length with Adaptivity/Target error",
+                      "load: cycles begin at given loads");
+    if (by_length && body == parameters.bodies.end())
+      parameters.fail(control,
+                      "arc length with bodies of linear laws alone",
+                      "load: their loads have no maximum");
     if (body == parameters.bodies.end())
       return;
     const std::string got =
@@ -41,6 +51,11 @@ namespace mortise
                           name_of(interface.law) + " with friction " + got,
                           "tie, slide, spring, or contact without friction: "
                           "friction knows bodies of linear laws alone");
+        if (by_length && is_one_sided(interface.law))
+          parameters.fail(control,
+                          "arc length with Law = " + name_of(interface.law) +
+                            " of interface " + interface.name,
+                          "load: arc length knows no contact");
         if (interface.preload)
           parameters.fail(section + "/Preload",
                           "one " + got,

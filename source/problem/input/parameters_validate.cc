@@ -272,6 +272,14 @@ namespace mortise
         parameters.fail("Steps/Step",
                         "more than a million steps",
                         "a length of a millionth of End time or more");
+      if (given.by_arc_length && step.size() > 1)
+        parameters.fail("Steps/Step",
+                        "several times with Control = arc length",
+                        "one length, along the path");
+      if (given.n_steps && !given.by_arc_length)
+        parameters.fail("Steps/Number of steps",
+                        std::to_string(*given.n_steps) + " with Control = load",
+                        "nothing: it belongs to Control = arc length");
     }
   } // namespace
 

@@ -93,6 +93,18 @@ namespace mortise
       {"a positive number, or ascending ones separated by commas",
        [](double length) { return length > 0.; }});
     section.add(
+      "Control",
+      steps.by_arc_length,
+      "load: t is given. arc length: t is an unknown, and each step has the length Step along the path of "
+      "equilibria, so that loads may pass a maximum and fall; with the first tangent of the run t would grow by Step. "
+      "The run ends where t reaches End time. For nonlinear laws, without contact.",
+      Allowed::one_of({"load", "arc length"}));
+    section.add(
+      "Number of steps",
+      steps.n_steps,
+      "Control = arc length: the run ends after so many steps; parts of one that failed count as one. Empty: 100.",
+      Allowed::integer(1));
+    section.add(
       "Output every",
       steps.output_every,
       "Fields are written at every n-th of these times, and at the end.",

@@ -7,9 +7,11 @@ namespace mortise
 {
   namespace
   {
-    /// Of one length, or none.
+    constexpr unsigned int most_along_path = 100;
+
+    /// With steps of one length, or none.
     double
-    n_steps(const std::vector<double> &step, const double end)
+    n_times(const std::vector<double> &step, const double end)
     {
       // a rest that rounding leaves is no step of its own
       return step.empty() ?
@@ -23,8 +25,14 @@ namespace mortise
   {
     if (step.size() > 1)
       return step;
-    const double        end = end_time.value_or(1.), n = n_steps(step, end);
     std::vector<double> times;
+    if (by_arc_length)
+      {
+        for (unsigned int i = 1; i <= n_steps.value_or(most_along_path); ++i)
+          times.push_back(i * first_time());
+        return times;
+      }
+    const double end = last_time(), n = n_times(step, end);
     for (double i = 1.; i < n; ++i)
       times.push_back(i * step[0]);
     times.push_back(end);
@@ -34,7 +42,7 @@ namespace mortise
   double
   StepParameters::first_time() const
   {
-    const double end = end_time.value_or(1.);
-    return step.size() > 1 || n_steps(step, end) > 1. ? step[0] : end;
+    return step.size() > 1 || n_times(step, last_time()) > 1. ? step[0] :
+                                                                last_time();
   }
 } // namespace mortise

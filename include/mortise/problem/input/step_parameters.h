@@ -14,6 +14,9 @@ namespace mortise
     unsigned int          output_every  = 1; ///< of these times
     double                smallest_step = 1e-3;
     std::optional<double> largest_step; ///< a time
+    /// Is t an unknown, and the length of a step along the path given?
+    bool                        by_arc_length = false;
+    std::optional<unsigned int> n_steps; ///< with arc-length control
     /// Do loads grow in proportion to t, from zero at the start to their values
     /// at time 1? No entry of a file.
     bool ramp = false;
@@ -25,7 +28,14 @@ namespace mortise
       return end_time || !step.empty();
     }
 
-    /// The times at which steps end, ascending; the first begins at 0.
+    double
+    last_time() const
+    {
+      return step.size() > 1 ? step.back() : end_time.value_or(1.);
+    }
+
+    /// The times at which steps end, ascending; the first begins at 0. With
+    /// arc-length control lengths along the path instead, see ArcLength.
     std::vector<double>
     times() const;
 

@@ -1,0 +1,148 @@
+// The linear solves of NonlinearStep.
+#include <mortise/problem/nonlinear_step.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise
+{
+  namespace
+  {
+    /// Of the residual of a linear solve, see doc/measurements/nonlinear.md.
+    constexpr double loosest_solve = 0.01;
+
+    /// Of one linear solve; what it has reached then may serve all the same,
+    /// but on a path, where tangents are nearly singular beside a limit point.
+    constexpr unsigned int most_linear_iterations = 100, most_on_path = 400;
+    constexpr double       fair_solve = 0.5;
+
+    /// Preconditioners are made again where this many times the fewest
+    /// iterations per digit are needed.
+    constexpr double largest_cost = 2.;
+  } // namespace
+
+  void
+  NonlinearStep::linearise(const SystemVector &x)
+  {
+    const bool refresh = least_cost == 0. || !solver.is_ready() ||
+                         last_cost > largest_cost * least_cost;
+    discretisation.linearise(
+      x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
+    linearised_at = x;
+    if (!refresh)
+      return;
+    solver.update();
+    if (!solver.is_ready())
+      {
+        discretisation.show_tangent(false);
+        solver.update();
+      }
+    norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
+    least_cost = 0.;
+  }
+
+  SolveReport
+  NonlinearStep::solve(SystemVector &x)
+  {
+    return contact != nullptr ? solve_contact(x) : solve_linear(x);
+  }
+
+  SolveReport
+  NonlinearStep::solve_contact(SystemVector &x)
+  {
+    // K (x' + D) = f - f_int + K u and so on for the solution x' without the
+    // prescribed displacements D
+    const BlockSystem &system   = discretisation.linear_system();
+    SystemVector       products = system.zero_vector();
+    Vector             moved(x.displacement);
+    moved -= load->prescribed_at_nodes;
+    if (system.mixed())
+      system.bulk->apply_mixed(products.displacement,
+                               products.pressure,
+                               moved,
+                               x.pressure);
+    else
+      system.bulk->apply_to_constrained(moved, products);
+    system.add_multiplier_force(products.displacement, x.multiplier);
+    SceneLoad linear        = *load;
+    linear.rhs.displacement = r.displacement;
+    linear.rhs.displacement += products.displacement;
+    for (const unsigned int i : system.bulk->levels().front().constrained)
+      linear.rhs.displacement.local_element(i) = 0.;
+    if (system.mixed())
+      {
+        linear.rhs.pressure = r.pressure;
+        linear.rhs.pressure += products.pressure;
+      }
+    SystemVector      solution;
+    const SolveReport report = contact->solve(*data, linear, solution);
+    x                        = solution;
+    x.displacement += load->prescribed_at_nodes;
+    for (const unsigned int i : hanging)
+      x.displacement.local_element(i) = 0.;
+    last_iterations = contact->linear_iterations();
+    least_cost      = 0.; // preconditioners see each state
+    if (!report.converged)
+      why = "contact does not converge";
+    return report;
+  }
+
+  SolveReport
+  NonlinearStep::solve_linear(SystemVector &x)
+  {
+    // choice 2 of Eisenstat and Walker
+    const double ratio = size_before > 0. ? size / size_before : 1.;
+    double       eta   = std::min(loosest_solve, 0.9 * ratio * ratio);
+    eta         = std::max(eta, 0.3 * run.parameters.solver.tolerance / size);
+    eta         = std::min(eta, loosest_solve);
+    size_before = size;
+
+    const Vector rest = rest_of_prescribed(x);
+    set_tolerance(eta);
+    SystemVector dx;
+    SolveReport  report = along != nullptr ? solve_bordered(x, rest, dx) :
+                                             solve_tangent(lifted(r, rest), dx);
+    if (report.converged && along != nullptr)
+      set_time(x.time + dx.time);
+    add_scaled(x, 1., dx);
+    for (const unsigned int i : prescribed) // without rounding
+      x.displacement.local_element(i) =
+        load->prescribed_at_nodes.local_element(i);
+    last_iterations = report.iterations;
+    if (!report.converged)
+      why = "the linear solver does not converge";
+    return report;
+  }
+
+  void
+  NonlinearStep::set_tolerance(const double eta)
+  {
+    constexpr double energy_fraction = 3.; // of what another solve improves
+    solver.set_limits(eta,
+                      energy_fraction,
+                      std::min(along != nullptr ? most_on_path :
+                                                  most_linear_iterations,
+                               run.parameters.solver.max_iterations));
+  }
+
+  SolveReport
+  NonlinearStep::solve_tangent(const SystemVector &forces, SystemVector &dx)
+  {
+    SolveReport report = solver.solve(forces, dx);
+    if (!report.converged && !discretisation.linear_system().mixed() &&
+        discretisation.linear_system().suits_conjugate_gradients())
+      {
+        // they stop at a negative direction
+        discretisation.note_negative_direction();
+        const unsigned int before_that = report.iterations;
+        report                         = solver.solve(forces, dx);
+        report.iterations += before_that;
+      }
+    if (!report.converged && report.relative_residual < fair_solve)
+      report.converged = true;
+    // a digit of the residual
+    last_cost = std::max(1u, report.iterations) / -std::log10(report.tolerance);
+    least_cost = least_cost == 0. ? last_cost : std::min(least_cost, last_cost);
+    return report;
+  }
+} // namespace mortise
