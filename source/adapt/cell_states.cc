@@ -108,42 +108,33 @@ namespace mortise
       return gauss_quadrature<dim>(element, element.degree + 1);
     }
 
-    /// Integrals over owned cells of what @p density has at point q of n fields; @p set(body, cell, fields) gives
-    /// them their coefficients, or leaves out the cell, which is false.
-    template <std::size_t n, typename Set, typename Density>
+    using Fields = std::vector<std::unique_ptr<CellFields>>;
+
+    /// Integrals over owned cells of what @p density(material, fields, q) is of @p n fields; @p set(body, cell, fields)
+    /// gives them their coefficients, the first one always, or leaves out the
+    /// cell, which is false.
+    template <typename Set, typename Density>
     NumbersByCell
-    integrals_by_cell(const Bodies  &bodies,
-                      const Set     &set,
-                      const Density &density)
+    integrals_by_cell(const Bodies      &bodies,
+                      const unsigned int n,
+                      const Set         &set,
+                      const Density     &density)
     {
       NumbersByCell result;
       for (const auto &body : bodies)
         {
           auto &of_body =
             result.emplace_back(body->triangulation().n_active_cells(), 0.);
-          std::vector<std::unique_ptr<CellFields>> fields;
+          Fields fields;
           for (unsigned int k = 0; k < n; ++k)
             fields.push_back(std::make_unique<CellFields>(*body, energy_rule));
           for (const auto &cell : body->dof_handler.active_cell_iterators())
             if (cell->is_locally_owned() && set(*body, cell, fields))
               for (unsigned int q = 0; q < fields[0]->weights.size(); ++q)
                 of_body[cell->active_cell_index()] +=
-                  fields[0]->weights[q] *
-                  density(body->material, *fields[0], *fields[n - 1], q);
+                  fields[0]->weights[q] * density(body->material, fields, q);
         }
       return result;
-    }
-
-    /// The first argument after @p bodies of integrals_by_cell().
-    template <std::size_t n>
-    auto
-    set_to(const std::array<const std::vector<BodySolution> *, n> &solutions)
-    {
-      return [solutions](const Body &body, const auto &cell, auto &fields) {
-        for (unsigned int k = 0; k < n; ++k)
-          fields[k]->reinit(cell, (*solutions[k])[body.index]);
-        return true;
-      };
     }
 
     double
@@ -152,18 +143,18 @@ namespace mortise
       return fields.pressures.empty() ? 0. : fields.pressures[q];
     }
 
-    /// Density of the energy of @p change; @p solution is evaluated at finite strain alone.
+    /// Of the changes fields[0] of fields[1], which are evaluated at finite
+    /// strain alone.
     double
-    twice_energy_of_change(const Material    &material,
-                           const CellFields  &change,
-                           const CellFields  &solution,
-                           const unsigned int q)
+    energy_of_change(const Material    &material,
+                     const Fields      &fields,
+                     const unsigned int q)
     {
       return material.twice_energy_of_change(material.has_finite_strain() ?
-                                               solution.gradients[q] :
+                                               fields[1]->gradients[q] :
                                                Tensor<2, dim>(),
-                                             change.gradients[q],
-                                             pressure_at(change, q));
+                                             fields[0]->gradients[q],
+                                             pressure_at(*fields[0], q));
     }
   } // namespace
 
@@ -171,16 +162,18 @@ namespace mortise
   energy_by_cell(const Bodies                    &bodies,
                  const std::vector<BodySolution> &solutions)
   {
-    return integrals_by_cell<1>(bodies,
-                                set_to<1>({{&solutions}}),
-                                [](const Material   &material,
-                                   const CellFields &fields,
-                                   const CellFields &,
-                                   const unsigned int q) {
-                                  return material.twice_energy(
-                                    fields.gradients[q],
-                                    pressure_at(fields, q));
-                                });
+    const auto set = [&](const Body &body, const auto &cell, auto &fields) {
+      fields[0]->reinit(cell, solutions[body.index]);
+      return true;
+    };
+    return integrals_by_cell(
+      bodies,
+      1,
+      set,
+      [](const Material &material, const Fields &fields, const unsigned int q) {
+        return material.twice_energy(fields[0]->gradients[q],
+                                     pressure_at(*fields[0], q));
+      });
   }
 
   NumbersByCell
@@ -194,7 +187,7 @@ namespace mortise
         fields[1]->reinit(cell, solutions[body.index]);
       return true;
     };
-    return integrals_by_cell<2>(bodies, set, twice_energy_of_change);
+    return integrals_by_cell(bodies, 2, set, energy_of_change);
   }
 
   NumbersByCell
@@ -217,28 +210,30 @@ namespace mortise
         fields[1]->reinit(cell, state.coefficients);
       return true;
     };
-    return integrals_by_cell<2>(bodies, set, twice_energy_of_change);
+    return integrals_by_cell(bodies, 2, set, energy_of_change);
   }
 
   NumbersByCell
   products_by_cell(const Bodies                    &bodies,
+                   const std::vector<BodySolution> &solutions,
                    const std::vector<BodySolution> &a,
                    const std::vector<BodySolution> &b)
   {
-    return integrals_by_cell<2>(
+    const auto set = [&](const Body &body, const auto &cell, auto &fields) {
+      fields[0]->reinit(cell, a[body.index]);
+      fields[1]->reinit(cell, b[body.index]);
+      if (body.material.nonlinear())
+        fields[2]->reinit(cell, solutions[body.index]);
+      return true;
+    };
+    return integrals_by_cell(
       bodies,
-      set_to<2>({{&a, &b}}),
-      [](const Material    &material,
-         const CellFields  &a,
-         const CellFields  &b,
-         const unsigned int q) {
-        const double p      = pressure_at(a, q);
-        const auto   stress = material.stress(a.gradients[q], p);
-        double result = scalar_product(Tensor<2, dim>(stress), b.gradients[q]);
-        if (material.mixed())
-          result -= pressure_at(b, q) *
-                    (trace(a.gradients[q]) + material.compressibility() * p);
-        return result;
+      3,
+      set,
+      [](const Material &material, const Fields &fields, const unsigned int q) {
+        // the tangent of a linear law is the same anywhere
+        const CellFields &at = material.nonlinear() ? *fields[2] : *fields[0];
+        return at.tangent_product(q, *fields[0], *fields[1]);
       });
   }
 

@@ -257,7 +257,8 @@ namespace mortise
     estimate_errors(bodies, changes, own, cells);
     if (dual)
       {
-        const auto products = products_by_cell(bodies, earlier, earlier_dual);
+        const auto products =
+          products_by_cell(bodies, solutions, earlier, earlier_dual);
         set_shares(bodies, products, cells);
         // the first change is that from nothing
         const double before =

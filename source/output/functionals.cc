@@ -143,12 +143,13 @@ namespace mortise
             [rule](const auto &) { return rule; },
             update_gradients)
         , weights(body, [rule](const auto &) { return rule; })
+        , at(body, [rule](const auto &) { return rule; })
         , geometry(body, f, rule)
       {}
 
       const Quadrature<dim>          rule;
       ValuesByElement<FEValues<dim>> functions;
-      CellFields                     weights;
+      CellFields                     weights, at;
       FaceGeometry                   geometry;
     };
 
@@ -223,6 +224,7 @@ namespace mortise
 
   CellFunctionals
   stress_functional(const Body              &body,
+                    const BodySolution      &solution,
                     const BodySolution      &weights,
                     const types::boundary_id boundary,
                     const unsigned int       c)
@@ -235,15 +237,19 @@ namespace mortise
       FEValues<dim>         &functions = face.functions(cell);
       functions.reinit(Triangulation<dim>::cell_iterator(cell));
       face.weights.reinit(cell, weights);
-      std::vector<double> normals; // component c of them, weighted
+      face.at.reinit(cell, solution);
+      std::vector<double> by_pressure;
       for (unsigned int q = 0; q < face.geometry.points.size(); ++q)
         {
-          // e . sigma(h) n = h : sigma(e n^T), since moduli are symmetric
+          // e . P(h) n = h : P(e n^T), since moduli are symmetric
           Tensor<2, dim> unit;
           unit[c] = face.geometry.weights[q] * face.weights.values[q][c] *
                     face.geometry.normals[q];
-          normals.push_back(unit[c][c]);
-          const Tensor<2, dim> stress = body.material.stress(unit, 0.);
+          const Tensor<2, dim> stress = face.at.nominal_change(q, unit, 0.);
+          if (body.pressure)
+            by_pressure.push_back(
+              scalar_product(unit,
+                             face.at.nominal_change(q, Tensor<2, dim>(), 1.)));
           for (unsigned int k = 0; k < u.size(); ++k)
             {
               const auto [component, i] = fe.system_to_component_index(k);
@@ -255,9 +261,9 @@ namespace mortise
           const auto own = body.pressure->cell(cell);
           p.reinit(own->get_fe().n_dofs_per_cell());
           for (unsigned int i = 0; i < p.size(); ++i)
-            for (unsigned int q = 0; q < normals.size(); ++q)
-              p[i] -=
-                normals[q] * own->get_fe().shape_value(i, face.rule.point(q));
+            for (unsigned int q = 0; q < by_pressure.size(); ++q)
+              p[i] += by_pressure[q] *
+                      own->get_fe().shape_value(i, face.rule.point(q));
         }
       result.push_back({cell, u, p});
     };

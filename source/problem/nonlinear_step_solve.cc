@@ -41,6 +41,18 @@ namespace mortise
     least_cost = 0.;
   }
 
+  void
+  NonlinearStep::linearise_at(const State &state)
+  {
+    SystemVector x = state.solution;
+    x.displacement = state.displacement;
+    linearised_at.reset();
+    linearise(x);
+    solver.set_limits(run.parameters.solver.tolerance,
+                      SolverOptions().energy_fraction,
+                      run.parameters.solver.max_iterations);
+  }
+
   SolveReport
   NonlinearStep::solve(SystemVector &x)
   {
@@ -129,11 +141,8 @@ namespace mortise
   NonlinearStep::solve_tangent(const SystemVector &forces, SystemVector &dx)
   {
     SolveReport report = solver.solve(forces, dx);
-    if (!report.converged && !discretisation.linear_system().mixed() &&
-        discretisation.linear_system().suits_conjugate_gradients())
+    if (!report.converged && discretisation.try_as_indefinite())
       {
-        // they stop at a negative direction
-        discretisation.note_negative_direction();
         const unsigned int before_that = report.iterations;
         report                         = solver.solve(forces, dx);
         report.iterations += before_that;

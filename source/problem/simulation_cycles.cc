@@ -13,14 +13,17 @@ namespace mortise
   {
     std::optional<DualSolution> dual;
     if (const auto &quantity = adaptivity->quantity())
-      dual = solve_dual(context,
-                        equations->discretisation,
-                        *equations->linear_solver,
-                        equations->preloads,
-                        *quantity,
-                        evaluation.solutions(),
-                        evaluation.forces(),
-                        adaptivity->dual_start(bodies));
+      {
+        equations->linearise_at(state);
+        dual = solve_dual(context,
+                          equations->discretisation,
+                          *equations->linear_solver,
+                          equations->preloads,
+                          *quantity,
+                          evaluation.solutions(),
+                          evaluation.forces(),
+                          adaptivity->dual_start(bodies));
+      }
     std::vector<InterfaceResidual> broken;
     Residuals                      missing;
     if (!dual)

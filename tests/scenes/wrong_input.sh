@@ -90,6 +90,11 @@ expect 2 'Steps/Step.*got several times with Control = arc length' "$prm/balloon
 expect 2 'Number of steps.*got 3 with Control = load' "$scene" --set 'Steps/Number of steps=3'
 expect 2 'where nothing that acts depends on t' "$prm/balloon.prm" "${steps[@]}" \
   --set 'Body inner/Boundary inside/Pressure=0.1'
+expect 2 'Quantity.*with Law = J2 plasticity of body lower' "$scene" --set "${material}Law=J2 plasticity" --set "${material}Yield stress=1" \
+  --set 'Adaptivity/Target error=0.1' --set 'Adaptivity/Quantity=p, z' --set 'Output/Points=p: lower: 0.5, 0.5, 0'
+expect 2 'Control.*arc length with Adaptivity/Target error' "$prm/balloon.prm" "${steps[@]}" --set 'Adaptivity/Target error=0.1'
+expect 2 'in mixed form with Poisson ratio 0.49' "$scene" --set "${material}Law=neo-Hookean" --set "${material}Poisson ratio=0.49" \
+  --set 'Body lower/Degree=2' --set 'Exact solution/Displacement=x*y; 0; 0'
 expect 2 'friction knows bodies of linear laws alone' "$scene" --set "${material}Law=neo-Hookean" --set 'Interface glue/Law=contact' \
   --set 'Interface glue/Friction coefficient=0.3'
 expect 2 'only Law = tie' "$scene" --set 'Interface glue/Preload=1' --set 'Interface glue/Law=slide'

@@ -112,10 +112,12 @@ namespace mortise
   NumbersByCell
   energy_of_new_modes(const Bodies &bodies, const CellStates &states);
 
-  /// Products of @p a and @p b with the operator of the scene by cell: without
-  /// pressures those of the energy norm.
+  /// Products of @p a and @p b with the operator of the scene by cell, that at
+  /// @p solutions: with linear laws and without pressures those of the energy
+  /// norm.
   NumbersByCell
   products_by_cell(const Bodies                    &bodies,
+                   const std::vector<BodySolution> &solutions,
                    const std::vector<BodySolution> &a,
                    const std::vector<BodySolution> &b);
 

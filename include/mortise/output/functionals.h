@@ -35,10 +35,11 @@ namespace mortise
                      const BodySolution        &solution,
                      dealii::types::boundary_id boundary);
 
-  /// int w (sigma n)_c over @p boundary as a functional of what has the stress, w component @p c of the
+  /// int w (P n)_c over @p boundary as a functional of small changes of @p solution, w component @p c of the
   /// displacement of @p weights.
   CellFunctionals
   stress_functional(const Body                &body,
+                    const BodySolution        &solution,
                     const BodySolution        &weights,
                     dealii::types::boundary_id boundary,
                     unsigned int               c);

@@ -70,6 +70,11 @@ namespace mortise
            const std::vector<BodySolution> &increments,
            State                           &state) const;
 
+    /// Take the tangent at @p state, the result of the last solve(), for the linear
+    /// solver, which then solves to the tolerance. Collective.
+    void
+    linearise_at(const State &state);
+
     /// Of the last solve().
     const NewtonReport &
     report() const

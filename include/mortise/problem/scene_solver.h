@@ -53,6 +53,14 @@ namespace mortise
     SolvedState
     solve(const PathStep &step, const State &last, SceneLoad &load);
 
+    /// See NonlinearStep::linearise_at(); linear scenes are linearised anyway.
+    void
+    linearise_at(const State &state)
+    {
+      if (nonlinear)
+        nonlinear->linearise_at(state);
+    }
+
     /// Add the reports of the last solve(), with solution @p solution, to
     /// @p summary.
     void

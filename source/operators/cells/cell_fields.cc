@@ -181,6 +181,48 @@ namespace mortise
     return result;
   }
 
+  Tensor<2, dim>
+  CellFields::nominal_change(const unsigned int    q,
+                             const Tensor<2, dim> &change,
+                             const double          pressure_change) const
+  {
+    const double stretch =
+      body.material.has_finite_strain() && !thermal_strains.empty() ?
+        1. + thermal_strains[q] :
+        1.;
+    return stretch * stretch *
+           body.material.nominal_change(elastic(gradients[q], q),
+                                        pressures.empty() ? 0. : pressures[q],
+                                        change / stretch,
+                                        pressure_change);
+  }
+
+  double
+  CellFields::tangent_product(const unsigned int q,
+                              const CellFields  &a,
+                              const CellFields  &b) const
+  {
+    const Material &material = body.material;
+    if (!material.mixed())
+      return scalar_product(nominal_change(q, a.gradients[q], 0.),
+                            b.gradients[q]);
+    // the pressure's column is the row of the dilatation
+    const Tensor<2, dim> by_pressure = nominal_change(q, Tensor<2, dim>(), 1.);
+    double               slope       = -material.compressibility();
+    if (const auto &law = material.nonlinear())
+      {
+        DoubleBatch value, slopes;
+        law->dilatation_of_pressure(DoubleBatch{} + pressures[q],
+                                    value,
+                                    slopes);
+        slope = slopes[0];
+      }
+    return scalar_product(nominal_change(q, a.gradients[q], a.pressures[q]),
+                          b.gradients[q]) +
+           b.pressures[q] * (scalar_product(by_pressure, a.gradients[q]) +
+                             slope * a.pressures[q]);
+  }
+
   double
   CellFields::missing_dilatation(const unsigned int q) const
   {

@@ -52,12 +52,15 @@ namespace mortise
   }
 
   LinearFunctional
-  derivative(const Quantity &quantity, const Discretisation &discretisation)
+  derivative(const Quantity                  &quantity,
+             const Discretisation            &discretisation,
+             const std::vector<BodySolution> &solutions)
   {
     const Bodies &bodies = discretisation.bodies();
     const Body   &body   = *bodies[quantity.body()];
     if (const auto *force = std::get_if<ResultantQuantity>(&quantity.of))
       return reaction_functional(discretisation,
+                                 solutions,
                                  body.index,
                                  body.boundary_id(force->boundary, ""),
                                  quantity.component);
@@ -74,7 +77,7 @@ namespace mortise
 
   DualSolution
   solve_dual(const RunContext                &run,
-             const Discretisation            &discretisation,
+             Discretisation                  &discretisation,
              LinearSolver                    &solver,
              Preloads                        &preloads,
              const Quantity                  &quantity,
@@ -87,16 +90,18 @@ namespace mortise
       all_components(quantity, discretisation.bodies(), solutions, forces);
     result.value            = all[quantity.component];
     result.size             = all.norm();
-    const auto   functional = derivative(quantity, discretisation);
+    const auto   functional = derivative(quantity, discretisation, solutions);
     SceneLoad    load{functional.rhs, {}};
     SystemVector z;
-    if (start.empty())
-      result.report = solver.solve(load.rhs, z);
-    else
-      {
-        z             = discretisation.system_vector(start, load);
-        result.report = solver.solve_from(load.rhs, z);
-      }
+    do
+      if (start.empty())
+        result.report = solver.solve(load.rhs, z);
+      else
+        {
+          z             = discretisation.system_vector(start, load);
+          result.report = solver.solve_from(load.rhs, z);
+        }
+    while (!result.report.converged && discretisation.try_as_indefinite());
     preloads.release(load.rhs, z, result.report);
     z.displacement -= functional.lift;
     result.solutions = discretisation.solutions(load, z);

@@ -10,6 +10,31 @@
 
 namespace mortise
 {
+  namespace
+  {
+    /// Of a scene with nonlinear laws: its dual problem needs a tangent that is
+    /// that of the whole way, without contact.
+    void
+    check_quantity(const Parameters &parameters)
+    {
+      const std::string what =
+                          in_quotes(parameters.adaptivity.quantity) + " with ",
+                        instead = "nothing, which means the energy norm";
+      for (const BodyParameters &body : parameters.bodies)
+        if (body.material.law == "J2 plasticity")
+          parameters.fail("Adaptivity/Quantity",
+                          what + "Law = J2 plasticity of body " + body.name,
+                          instead);
+      for (const InterfaceParameters &interface : parameters.interfaces)
+        if (is_one_sided(interface.law))
+          parameters.fail("Adaptivity/Quantity",
+                          what + "Law = " + name_of(interface.law) +
+                            " of interface " + interface.name +
+                            " and nonlinear laws of bodies",
+                          instead);
+    }
+  } // namespace
+
   void
   check_nonlinear_laws(const Parameters &parameters)
   {
@@ -62,10 +87,7 @@ namespace mortise
                           "none: preloads know bodies of linear laws alone");
       }
     if (!parameters.adaptivity.quantity.empty())
-      parameters.fail("Adaptivity/Quantity",
-                      in_quotes(parameters.adaptivity.quantity) + " " + got,
-                      "nothing, which means the energy norm: quantities know "
-                      "bodies of linear laws alone");
+      check_quantity(parameters);
     const BodyParameters *mixed = nullptr;
     for (const BodyParameters &any : parameters.bodies)
       if (!is_linear(any.material) && is_mixed(any) &&

@@ -316,6 +316,7 @@ namespace mortise
     /// number of boundaries, at its nodes.
     void
     add_stresses(const Discretisation      &discretisation,
+                 const BodySolution        &solution,
                  const DirichletBoundaries &dirichlet,
                  const Part                &part,
                  const LevelVector<double> &shares,
@@ -346,6 +347,7 @@ namespace mortise
                      discretisation
                        .load(body,
                              stress_functional(body,
+                                               solution,
                                                on_body[part.body],
                                                boundary,
                                                part.component))
@@ -355,10 +357,11 @@ namespace mortise
   } // namespace
 
   LinearFunctional
-  reaction_functional(const Discretisation    &discretisation,
-                      const unsigned int       b,
-                      const types::boundary_id boundary,
-                      const unsigned int       c)
+  reaction_functional(const Discretisation            &discretisation,
+                      const std::vector<BodySolution> &solutions,
+                      const unsigned int               b,
+                      const types::boundary_id         boundary,
+                      const unsigned int               c)
   {
     const BlockSystem              &system = discretisation.linear_system();
     const DirichletBoundaries       dirichlet(discretisation);
@@ -392,8 +395,12 @@ namespace mortise
     if (result.rhs.multiplier.size() > 0)
       dirichlet.constraint(lift, result.rhs.multiplier);
     if (dirichlet.any_shared())
-      add_stresses(
-        discretisation, dirichlet, {b, boundary, c}, lift, result.rhs);
+      add_stresses(discretisation,
+                   solutions[b],
+                   dirichlet,
+                   {b, boundary, c},
+                   lift,
+                   result.rhs);
     return result;
   }
 } // namespace mortise

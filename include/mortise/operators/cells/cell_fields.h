@@ -57,6 +57,20 @@ namespace mortise
     Material::Response
     respond(unsigned int q) const;
 
+    /// The derivative of the nominal stress at point @p q in the direction of a
+    /// change of gradient and pressure, where points remember nothing.
+    dealii::Tensor<2, dim>
+    nominal_change(unsigned int                  q,
+                   const dealii::Tensor<2, dim> &change,
+                   double                        pressure_change) const;
+
+    /// The product of @p a and @p b, changes of what these fields are of, with the
+    /// tangent at point @p q.
+    double
+    tangent_product(unsigned int      q,
+                    const CellFields &a,
+                    const CellFields &b) const;
+
     /// In mixed form the residual of the dilatation at point @p q: ln J or tr e, less what
     /// belongs to the pressure.
     double

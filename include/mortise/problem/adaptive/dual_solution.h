@@ -27,17 +27,21 @@ namespace mortise
               const Bodies        &bodies,
               const ExactSolution &exact);
 
-  /// The derivative by the unknowns. Throws InputError if its point lies
-  /// outside the body. Collective.
+  /// The derivative by the unknowns at @p solutions. Throws InputError if its point
+  /// lies outside the body. Collective.
   LinearFunctional
-  derivative(const Quantity &quantity, const Discretisation &discretisation);
+  derivative(const Quantity                  &quantity,
+             const Discretisation            &discretisation,
+             const std::vector<BodySolution> &solutions);
 
   /// Solve the dual problem of @p quantity, with the shortenings of
-  /// @p preloads, at the solution @p solutions with @p forces; @p start may be
-  /// empty. Collective.
+  /// @p preloads, at the solution @p solutions with @p forces, where the scene is
+  /// linearised; @p start may be empty. The tangent stands in place of its
+  /// transpose, from which pressures on deformed faces with a free rim make it
+  /// differ. Collective.
   DualSolution
   solve_dual(const RunContext                &run,
-             const Discretisation            &discretisation,
+             Discretisation                  &discretisation,
              LinearSolver                    &solver,
              Preloads                        &preloads,
              const Quantity                  &quantity,

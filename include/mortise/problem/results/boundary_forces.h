@@ -86,11 +86,12 @@ namespace mortise
     Vector lift;
   };
 
-  /// Component @p c of the force of BoundaryForces::on(), without the part that
-  /// is independent of the solution. Collective.
+  /// The derivative of component @p c of the force of BoundaryForces::on() at
+  /// @p solutions, where the scene is linearised. Collective.
   LinearFunctional
-  reaction_functional(const Discretisation      &discretisation,
-                      unsigned int               body,
-                      dealii::types::boundary_id boundary,
-                      unsigned int               c);
+  reaction_functional(const Discretisation            &discretisation,
+                      const std::vector<BodySolution> &solutions,
+                      unsigned int                     body,
+                      dealii::types::boundary_id       boundary,
+                      unsigned int                     c);
 } // namespace mortise

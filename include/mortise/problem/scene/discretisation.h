@@ -84,11 +84,17 @@ namespace mortise
       system.bulk->show_tangent(initial_stress);
     }
 
-    /// See BulkSystem::note_negative_direction().
-    void
-    note_negative_direction()
+    /// Where conjugate gradients have stopped at a tangent: it is taken as
+    /// indefinite from now on. False if it was, or the law is linear, so that
+    /// another solve does not help.
+    bool
+    try_as_indefinite()
     {
+      if (!system.bulk->is_nonlinear() || system.mixed() ||
+          !system.suits_conjugate_gradients())
+        return false;
       system.bulk->note_negative_direction();
+      return true;
     }
 
     /// By owned multiplier: the weighted gap of @p x, a volume; tangential
