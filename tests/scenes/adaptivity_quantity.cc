@@ -114,7 +114,7 @@ namespace
                                         discretisation.bodies(),
                                         u,
                                         forces)[quantity.component];
-    const auto derivative      = mortise::derivative(quantity, discretisation);
+    const auto derivative = mortise::derivative(quantity, discretisation, u);
     solver->solve(derivative.rhs, z);
     const auto product = [](const SystemVector &a, const SystemVector &b) {
       double result = a.displacement * b.displacement;
