@@ -2,6 +2,7 @@
 
 #include <mortise/adapt/cycle_errors.h>
 #include <mortise/adapt/error_tail.h>
+#include <mortise/material/nonlinear_law.h>
 
 #include <algorithm>
 #include <cmath>
@@ -236,6 +237,16 @@ namespace mortise
       for_sure + std::pow(upper_factor(memory.n_estimates), 2) * by_equations;
     memory.upper_estimate =
       std::sqrt(most / std::max(unit * unit - most, least_part * unit * unit));
+    // near a collapse small forces make large plastic strains
+    constexpr double part_of_change = 0.5;
+    double           of_plastic     = 0.;
+    for (const auto &body : bodies)
+      if (const auto &law = body->material.nonlinear();
+          law && law->plastic_strain())
+        of_plastic += changes[body->index];
+    memory.upper_estimate =
+      std::max(*memory.upper_estimate,
+               part_of_change * std::sqrt(of_plastic) / unit);
   }
 
   std::vector<double>

@@ -1,4 +1,5 @@
 // The linear solves of NonlinearStep.
+#include <mortise/material/nonlinear_law.h>
 #include <mortise/problem/nonlinear_step.h>
 
 #include <algorithm>
@@ -105,8 +106,18 @@ namespace mortise
     // choice 2 of Eisenstat and Walker
     const double ratio = size_before > 0. ? size / size_before : 1.;
     double       eta   = std::min(loosest_solve, 0.9 * ratio * ratio);
-    eta         = std::max(eta, 0.3 * run.parameters.solver.tolerance / size);
-    eta         = std::min(eta, loosest_solve);
+    eta = std::max(eta, 0.3 * run.parameters.solver.tolerance / size);
+    eta = std::min(eta, loosest_solve);
+    // what a loose solve leaves of a large motion would yield; and an elastic
+    // step then takes one solve, as a linear one does
+    const Bodies &bodies = discretisation.bodies();
+    const bool    may_yield =
+      std::any_of(bodies.begin(), bodies.end(), [](const auto &body) {
+        const auto &law = body->material.nonlinear();
+        return law && law->n_history() > 0;
+      });
+    if (size_before == 0. && may_yield)
+      eta = run.parameters.solver.tolerance;
     size_before = size;
 
     const Vector rest = rest_of_prescribed(x);

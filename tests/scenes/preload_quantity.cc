@@ -117,7 +117,9 @@ namespace
     preloads.begin(scene.fields(), load);
     preloads.solve(false, load, x);
     const auto derivative =
-      mortise::derivative(*given_quantity(scene.given()), discretisation);
+      mortise::derivative(*given_quantity(scene.given()),
+                          discretisation,
+                          discretisation.solutions(load, x));
     SystemVector rhs    = derivative.rhs, z;
     SolveReport  report = solver->solve(rhs, z);
     preloads.release(rhs, z, report);

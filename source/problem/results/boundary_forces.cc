@@ -266,7 +266,8 @@ namespace mortise
   BoundaryForces::moment_of_displacement(const unsigned int i) const
   {
     const SideParameters &slave = discretisation.interfaces().sides()[i].slave;
-    if (!discretisation.bodies()[slave.body]->material.has_finite_strain())
+    if (!discretisation.bodies()[slave.body]->material.has_finite_strain() ||
+        solved.solution.multiplier.size() == 0)
       return {};
     const LevelVector<double> forces =
       dirichlet.forces_of(i, solved.solution.multiplier);
