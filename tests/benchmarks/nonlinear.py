@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """nonlinear.py BENCHMARK_NONLINEAR MORTISE: write the tables of doc/measurements/nonlinear.md that stand below its
-mark: products with tangents beside Hooke's, and Newton's method on the scenes of prm/ with nonlinear laws."""
+mark: products with tangents beside Hooke's, Newton's method on the scenes of prm/ with nonlinear laws, and errors of the balloon of
+tests/field/balloon_to_a_target.prm."""
 import json
+import math
 import os
 import subprocess
 import sys
@@ -12,6 +14,9 @@ TOP = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
 PAGE = os.path.join(TOP, "doc", "measurements", "nonlinear.md")
 MARK = "<!-- tables -->\n"
 SCENES = ["balloon", "torsion", "cantilever_large", "column", "autofrettage"]
+
+RATES = """The balloon under a given pressure, a = 1.5: the inner layer has 2 k, the outer one 3 k cells along an edge of a patch, and k layers each; conforming: both
+2 k. Expected are h^p in the energy norm (of logarithmic strains) and h^(p+1)."""
 
 CUBE = """set Bodies = cube
 subsection Body cube
@@ -85,10 +90,47 @@ def scenes(program):
     return rows
 
 
+def errors_of(program, output, settings):
+    """The steps of the balloon."""
+    scene = os.path.join(TOP, "tests", "field", "balloon_to_a_target.prm")
+    run([program, "--output", output, "--set", "Output/Fields="] + [word for setting in settings for word in ("--set", setting)] + [scene])
+    return json.load(open(os.path.join(output, "summary.json")))["steps"]
+
+
+def rates(program):
+    rows = ["| p | k | tied: energy | rate | displacement, L2 | rate | tied by conforming: energy | L2 |", "|---|---|---|---|---|---|---|---|"]
+    with tempfile.TemporaryDirectory() as work:
+        for p in range(2, 7):
+            before = None
+            for k in (1, 2, 4) if p < 5 else (1, 2):
+                common = ["Adaptivity/Target error=", "Solver/Tolerance=1e-11", f"Body inner/Degree={p}", f"Body outer/Degree={p}", f"Body inner/Mesh/Subdivisions={2 * k}, {k}"]
+                found = []
+                for n in (3 * k, 2 * k):
+                    errors = errors_of(program, work, common + [f"Body outer/Mesh/Subdivisions={n}, {k}"])[-1]["errors"]
+                    found.append([errors["energy"], errors["displacement_l2"]])
+                tied, conforming = found
+                rate = [f"{math.log2(a / b):.2f}" for a, b in zip(before, tied)] if before else ["", ""]
+                rows.append(f"| {p} | {k} | {tied[0]:.2e} | {rate[0]} | {tied[1]:.2e} | {rate[1]} | {tied[0] / conforming[0]:.3f} | {tied[1] / conforming[1]:.3f} |")
+                before = tied
+    return rows
+
+
+def targets(program):
+    rows = ["| target | cycles | unknowns | estimate | error | Newton by cycle |", "|---|---|---|---|---|---|"]
+    with tempfile.TemporaryDirectory() as work:
+        for target in ("1e-2", "1e-3", "1e-4", "1e-5", "1e-6"):
+            steps = errors_of(program, work, ["Adaptivity/Target error=" + target])
+            newton = ", ".join(str(s["solver"]["newton_iterations"]) for s in steps)
+            last = steps[-1]
+            rows.append(f"| {target} | {len(steps)} | {last['dofs']['total']} | {last['adaptivity']['estimate']:.2e} | {last['errors']['energy']:.2e} | {newton} |")
+    return rows
+
+
 def main(benchmark, mortise):
     text = open(PAGE).read()
     head = text[:text.index(MARK) + len(MARK)]
     tables = ["## Products", ""] + products(benchmark) + ["", "## Scenes", ""] + scenes(mortise)
+    tables += ["", "## Rates", "", RATES, ""] + rates(mortise) + ["", "## Target errors", ""] + targets(mortise)
     open(PAGE, "w").write(head + "\n" + "\n".join(tables) + "\n")
 
 
