@@ -10,6 +10,11 @@ namespace mortise
 {
   using namespace dealii;
 
+  namespace
+  {
+    const Tensor<2, 3> identity(unit_symmetric_tensor<3>());
+  } // namespace
+
   ExpressionSolution::ExpressionSolution(
     const VectorExpression        &displacement,
     const std::vector<Material>   &materials,
@@ -72,50 +77,27 @@ namespace mortise
              .nominal;
   }
 
-  Tensor<1, 3>
-  ExpressionSolution::nonlinear_body_force(const Point<3>    &p,
-                                           const unsigned int body) const
+  Tensor<2, 3>
+  ExpressionSolution::slope_of_stress(const Point<3>     &p,
+                                      const unsigned int  body,
+                                      const Tensor<2, 3> &slope,
+                                      const double        mean_slope) const
   {
     const Material    &material = materials[body];
-    const bool         finite   = material.has_finite_strain();
-    const Tensor<2, 3> unit(unit_symmetric_tensor<3>()),
-      gradient                 = elastic_gradient(p, body);
-    const double at            = pressure_at(p, body),
-                 stretch       = finite ? 1. + thermal_strain(p, body) : 1.;
-    const auto         hessian = expression.hessian(p);
-    const Tensor<1, 3> strain_slope = thermal_strains.empty() ?
-                                        Tensor<1, 3>() :
-                                        thermal_strains[body].gradient(p);
-    const Tensor<2, 3> nominal      = material.respond(gradient, at).nominal,
-                       without      = material.respond(gradient, 0.).nominal;
-    Tensor<1, 3> force;
-    for (unsigned int j = 0; j < 3; ++j)
-      {
-        Tensor<2, 3> slope;
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int k = 0; k < 3; ++k)
-            slope[i][k] = hessian[i][k][j];
-        slope -= strain_slope[j] * (finite ? unit + gradient : unit);
-        slope /= stretch;
-        double pressure_slope = 0.;
-        if (material.incompressible())
-          {
-            // tau = P F^T has the trace 3 (p - mean pressure)
-            Tensor<2, 3> tau = material.nominal_change(gradient, 0., slope, 0.);
-            if (finite)
-              tau =
-                tau * transpose(unit + gradient) + without * transpose(slope);
-            pressure_slope = trace(tau) / 3. + pressure.gradient(p)[j];
-          }
-        Tensor<2, 3> change =
-          material.nominal_change(gradient, at, slope, pressure_slope);
-        if (finite)
-          change = stretch * stretch * change +
-                   2. * stretch * strain_slope[j] * nominal;
-        for (unsigned int i = 0; i < 3; ++i)
-          force[i] -= change[i][j];
-      }
-    return force;
+    const Tensor<2, 3> gradient = elastic_gradient(p, body);
+    if (!material.incompressible())
+      return material.nonlinear() ?
+               material.nominal_change(gradient, 0., slope, 0.) :
+               Tensor<2, 3>(material.stress(slope));
+    // tau = P F^T has the trace 3 (p - mean pressure)
+    Tensor<2, 3> tau = material.nominal_change(gradient, 0., slope, 0.);
+    if (material.has_finite_strain())
+      tau = tau * transpose(identity + gradient) +
+            material.respond(gradient, 0.).nominal * transpose(slope);
+    return material.nominal_change(gradient,
+                                   pressure_at(p, body),
+                                   slope,
+                                   trace(tau) / 3. + mean_slope);
   }
 
   Tensor<1, 3>
@@ -123,17 +105,30 @@ namespace mortise
                                  const unsigned int body) const
   {
     AssertIndexRange(body, materials.size());
-    if (materials[body].nonlinear())
-      return nonlinear_body_force(p, body);
-    const Tensor<1, 3> force =
-      materials[body].body_force(expression.hessian(p));
-    if (materials[body].incompressible())
-      return force + pressure.gradient(p);
-    if (thermal_strains.empty())
-      return force;
-    return force +
-           materials[body].stress(Tensor<2, 3>(unit_symmetric_tensor<3>())) *
-             thermal_strains[body].gradient(p);
+    const bool         finite  = materials[body].has_finite_strain();
+    const double       stretch = finite ? 1. + thermal_strain(p, body) : 1.;
+    const Tensor<2, 3> F       = identity + elastic_gradient(p, body);
+    const auto         hessian = expression.hessian(p);
+    const Tensor<1, 3> mean    = pressure.gradient(p),
+                       strain  = thermal_strains.empty() ?
+                                   Tensor<1, 3>() :
+                                   thermal_strains[body].gradient(p);
+    Tensor<1, 3> force;
+    for (unsigned int j = 0; j < 3; ++j)
+      {
+        Tensor<2, 3> slope;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int k = 0; k < 3; ++k)
+            slope[i][k] = hessian[i][k][j];
+        slope -= strain[j] * (finite ? F : identity);
+        Tensor<2, 3> change =
+          stretch * slope_of_stress(p, body, slope, stretch * mean[j]);
+        if (finite)
+          change += 2. / stretch * strain[j] * nominal_stress(p, body);
+        for (unsigned int i = 0; i < 3; ++i)
+          force[i] -= change[i][j];
+      }
+    return force;
   }
 
   namespace

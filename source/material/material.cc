@@ -190,26 +190,6 @@ namespace mortise
     return finite ? result * transpose(inverse) : result;
   }
 
-  Tensor<1, 3>
-  Material::body_force(
-    const std::array<SymmetricTensor<2, 3>, 3> &hessian) const
-  {
-    // d sigma_ij / dx_j is the stress of the derivative of the gradient
-    Tensor<1, 3> force;
-    for (unsigned int j = 0; j < 3; ++j)
-      {
-        Tensor<2, 3> slope;
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int k = 0; k < 3; ++k)
-            slope[i][k] = hessian[i][k][j];
-        const SymmetricTensor<2, 3> sigma =
-          incompressible() ? stress(slope, 0.) : stress(slope);
-        for (unsigned int i = 0; i < 3; ++i)
-          force[i] -= sigma[i][j];
-      }
-    return force;
-  }
-
   double
   Material::stiffness_ratio() const
   {

@@ -71,13 +71,6 @@ namespace mortise
                            const dealii::Tensor<2, 3> &change,
                            double                      pressure_change) const;
 
-    /// Force per volume that balances a displacement with second derivatives
-    /// @p hessian (hessian[i] of u_i): -div sigma; of incompressible materials
-    /// without the gradient of the pressure.
-    dealii::Tensor<1, 3>
-    body_force(
-      const std::array<dealii::SymmetricTensor<2, 3>, 3> &hessian) const;
-
     /// What a law makes of a deformation at one point.
     struct Response
     {
