@@ -77,42 +77,52 @@ namespace mortise
              .nominal;
   }
 
-  Tensor<2, 3>
-  ExpressionSolution::slope_of_stress(const Point<3>     &p,
-                                      const unsigned int  body,
-                                      const Tensor<2, 3> &slope,
-                                      const double        mean_slope) const
+  namespace
   {
-    const Material    &material = materials[body];
-    const Tensor<2, 3> gradient = elastic_gradient(p, body);
-    if (!material.incompressible())
-      return material.nonlinear() ?
-               material.nominal_change(gradient, 0., slope, 0.) :
-               Tensor<2, 3>(material.stress(slope));
-    // tau = P F^T has the trace 3 (p - mean pressure)
-    Tensor<2, 3> tau = material.nominal_change(gradient, 0., slope, 0.);
-    if (material.has_finite_strain())
-      tau = tau * transpose(identity + gradient) +
-            material.respond(gradient, 0.).nominal * transpose(slope);
-    return material.nominal_change(gradient,
-                                   pressure_at(p, body),
-                                   slope,
-                                   trace(tau) / 3. + mean_slope);
-  }
+    /// The change of the nominal stress with that of the elastic @p gradient, and
+    /// with that of the mean pressure of incompressible materials, whose
+    /// mixed form has @p pressure.
+    Tensor<2, 3>
+    slope_of_stress(const Material     &material,
+                    const Tensor<2, 3> &gradient,
+                    const double        pressure,
+                    const Tensor<2, 3> &slope,
+                    const double        mean_slope)
+    {
+      if (!material.incompressible())
+        return material.nonlinear() ?
+                 material.nominal_change(gradient, 0., slope, 0.) :
+                 Tensor<2, 3>(material.stress(slope));
+      // tau = P F^T has the trace 3 (p - mean pressure)
+      Tensor<2, 3> tau = material.nominal_change(gradient, 0., slope, 0.);
+      if (material.has_finite_strain())
+        tau = tau * transpose(identity + gradient) +
+              material.respond(gradient, 0.).nominal * transpose(slope);
+      return material.nominal_change(gradient,
+                                     pressure,
+                                     slope,
+                                     trace(tau) / 3. + mean_slope);
+    }
+  } // namespace
 
   Tensor<1, 3>
   ExpressionSolution::body_force(const Point<3>    &p,
                                  const unsigned int body) const
   {
     AssertIndexRange(body, materials.size());
-    const bool         finite  = materials[body].has_finite_strain();
-    const double       stretch = finite ? 1. + thermal_strain(p, body) : 1.;
-    const Tensor<2, 3> F       = identity + elastic_gradient(p, body);
+    const Material &material = materials[body];
+    const bool      finite   = material.has_finite_strain();
+    const double    stretch  = finite ? 1. + thermal_strain(p, body) : 1.;
+    // of linear laws any gradient serves
+    const Tensor<2, 3> gradient =
+      material.nonlinear() ? elastic_gradient(p, body) : Tensor<2, 3>();
+    const double       at = material.nonlinear() ? pressure_at(p, body) : 0.;
     const auto         hessian = expression.hessian(p);
-    const Tensor<1, 3> mean    = pressure.gradient(p),
-                       strain  = thermal_strains.empty() ?
-                                   Tensor<1, 3>() :
-                                   thermal_strains[body].gradient(p);
+    const Tensor<1, 3> mean = material.incompressible() ? pressure.gradient(p) :
+                                                          Tensor<1, 3>(),
+                       strain = thermal_strains.empty() ?
+                                  Tensor<1, 3>() :
+                                  thermal_strains[body].gradient(p);
     Tensor<1, 3> force;
     for (unsigned int j = 0; j < 3; ++j)
       {
@@ -120,9 +130,10 @@ namespace mortise
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int k = 0; k < 3; ++k)
             slope[i][k] = hessian[i][k][j];
-        slope -= strain[j] * (finite ? F : identity);
+        slope -= strain[j] * (finite ? identity + gradient : identity);
         Tensor<2, 3> change =
-          stretch * slope_of_stress(p, body, slope, stretch * mean[j]);
+          stretch *
+          slope_of_stress(material, gradient, at, slope, stretch * mean[j]);
         if (finite)
           change += 2. / stretch * strain[j] * nominal_stress(p, body);
         for (unsigned int i = 0; i < 3; ++i)

@@ -80,13 +80,6 @@ namespace mortise
     /// Of the mixed form, zero except of incompressible materials.
     double
     pressure_at(const dealii::Point<3> &p, unsigned int body) const;
-    /// The change of the nominal stress with those of the elastic gradient, and
-    /// of the mean pressure of incompressible materials.
-    dealii::Tensor<2, 3>
-    slope_of_stress(const dealii::Point<3>     &p,
-                    unsigned int                body,
-                    const dealii::Tensor<2, 3> &slope,
-                    double                      mean_slope) const;
 
     VectorExpression        expression;
     std::vector<Material>   materials;
