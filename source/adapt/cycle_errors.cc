@@ -2,7 +2,7 @@
 
 #include <mortise/adapt/cycle_errors.h>
 #include <mortise/adapt/error_tail.h>
-#include <mortise/material/nonlinear_law.h>
+#include <mortise/operators/cells/cell_histories.h>
 
 #include <algorithm>
 #include <cmath>
@@ -241,8 +241,7 @@ namespace mortise
     constexpr double part_of_change = 0.5;
     double           of_plastic     = 0.;
     for (const auto &body : bodies)
-      if (const auto &law = body->material.nonlinear();
-          law && law->plastic_strain())
+      if (has_history(*body))
         of_plastic += changes[body->index];
     memory.upper_estimate =
       std::max(*memory.upper_estimate,

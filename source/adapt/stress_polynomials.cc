@@ -4,7 +4,7 @@
 #include <mortise/base/lagrange.h>
 #include <mortise/body/elements/simplex_basis.h>
 #include <mortise/body/elements/simplex_quadrature.h>
-#include <mortise/material/nonlinear_law.h>
+#include <mortise/operators/cells/cell_histories.h>
 
 namespace mortise
 {
@@ -63,8 +63,7 @@ namespace mortise
     unsigned int
     n_nodes(const Body &body, const FiniteElement<dim> &element)
     {
-      const auto &law = body.material.nonlinear();
-      return element.degree + (law && law->n_history() > 0 ? 2 : 1);
+      return element.degree + (has_history(body) ? 2 : 1);
     }
   } // namespace
 

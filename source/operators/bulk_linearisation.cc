@@ -230,8 +230,7 @@ namespace mortise
             history[group][(number / width * n + i) * width + number % width]);
       });
     for (const Body *body : space.bodies())
-      if (body->material.nonlinear() &&
-          body->material.nonlinear()->n_history() > 0)
+      if (has_history(*body))
         update_ghosts(*body, result[body->index]);
     return result;
   }

@@ -1,5 +1,5 @@
 // The linear solves of NonlinearStep.
-#include <mortise/material/nonlinear_law.h>
+#include <mortise/operators/cells/cell_histories.h>
 #include <mortise/problem/nonlinear_step.h>
 
 #include <algorithm>
@@ -113,8 +113,7 @@ namespace mortise
     const Bodies &bodies = discretisation.bodies();
     const bool    may_yield =
       std::any_of(bodies.begin(), bodies.end(), [](const auto &body) {
-        const auto &law = body->material.nonlinear();
-        return law && law->n_history() > 0;
+        return has_history(*body);
       });
     if (size_before == 0. && may_yield)
       eta = run.parameters.solver.tolerance;

@@ -88,13 +88,14 @@ namespace mortise
     preloads.begin(data, load);
     if (nonlinear)
       {
-        State first = last;
+        State first;
         if (!start.empty())
           {
             first.solution = discretisation.system_vector(start, load);
             nonlinear->resume(load, start, {}, first);
           }
-        report = nonlinear->solve(data, contact.get(), load, first, next);
+        report = nonlinear->solve(
+          data, contact.get(), load, start.empty() ? last : first, next);
       }
     else if (contact)
       report = contact->solve(data, load, next.solution);

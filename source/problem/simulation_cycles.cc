@@ -1,6 +1,6 @@
 // The cycles of Simulation: solve, estimate, refine, until the error is small
 // enough.
-#include <mortise/material/nonlinear_law.h>
+#include <mortise/operators/cells/cell_histories.h>
 #include <mortise/problem/adaptive/dual_solution.h>
 #include <mortise/problem/simulation.h>
 
@@ -45,11 +45,8 @@ namespace mortise
                              std::optional<SceneLoad> &load)
   {
     const auto &start     = adaptivity->start(bodies);
-    const auto  remembers = [](const auto &body) {
-      const auto &law = body->material.nonlinear();
-      return law && law->n_history() > 0;
-    };
-    const bool is_linear =
+    const auto  remembers = [](const auto &body) { return has_history(*body); };
+    const bool  is_linear =
       !equations->discretisation.linear_system().bulk->is_nonlinear();
     SolvedState next;
     steps_of_cycle.reset();

@@ -157,16 +157,21 @@ namespace mortise
         thermal_strains.push_back(solution.thermal_strain(x));
   }
 
+  double
+  CellFields::thermal_stretch(const unsigned int q) const
+  {
+    return body.material.has_finite_strain() && !thermal_strains.empty() ?
+             1. + thermal_strains[q] :
+             1.;
+  }
+
   Tensor<2, dim>
   CellFields::elastic(Tensor<2, dim> gradient, const unsigned int q) const
   {
     if (!thermal_strains.empty())
       for (unsigned int c = 0; c < dim; ++c)
         gradient[c][c] -= thermal_strains[q];
-    // F = (1 + strain) F_e
-    return body.material.has_finite_strain() && !thermal_strains.empty() ?
-             gradient / (1. + thermal_strains[q]) :
-             gradient;
+    return gradient / thermal_stretch(q);
   }
 
   Material::Response
@@ -176,8 +181,7 @@ namespace mortise
       body.material.respond(elastic(gradients[q], q),
                             pressures.empty() ? 0. : pressures[q],
                             history(q));
-    if (body.material.has_finite_strain() && !thermal_strains.empty())
-      result.nominal *= std::pow(1. + thermal_strains[q], 2);
+    result.nominal *= std::pow(thermal_stretch(q), 2);
     return result;
   }
 
@@ -186,10 +190,7 @@ namespace mortise
                              const Tensor<2, dim> &change,
                              const double          pressure_change) const
   {
-    const double stretch =
-      body.material.has_finite_strain() && !thermal_strains.empty() ?
-        1. + thermal_strains[q] :
-        1.;
+    const double stretch = thermal_stretch(q);
     return stretch * stretch *
            body.material.nominal_change(elastic(gradients[q], q),
                                         pressures.empty() ? 0. : pressures[q],

@@ -3,6 +3,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <mortise/material/nonlinear_law.h>
 #include <mortise/operators/cells/cell_histories.h>
 #include <mortise/operators/matrix_free/cell_batches.h>
 
@@ -11,6 +12,13 @@
 namespace mortise
 {
   using namespace dealii;
+
+  bool
+  has_history(const Body &body)
+  {
+    const auto &law = body.material.nonlinear();
+    return law && law->n_history() > 0;
+  }
 
   void
   update_ghosts(const Body &body, CellHistories &histories)

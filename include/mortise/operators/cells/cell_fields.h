@@ -85,6 +85,9 @@ namespace mortise
     stress(unsigned int q) const;
 
   private:
+    /// s of F = s F_e at point @p q; one at small strain.
+    double
+    thermal_stretch(unsigned int q) const;
     const double *
     history(unsigned int q) const;
 

@@ -14,6 +14,10 @@ namespace mortise
   /// numbers, of owned and ghost cells; empty for laws that remember nothing.
   using CellHistories = std::vector<std::vector<double>>;
 
+  /// Do the points of @p body remember anything?
+  bool
+  has_history(const Body &body);
+
   /// Set those of ghost cells of @p body. Collective.
   void
   update_ghosts(const Body &body, CellHistories &histories);
