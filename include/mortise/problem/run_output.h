@@ -5,6 +5,7 @@
 #include <mortise/output/whole_file.h>
 #include <mortise/problem/load_steps.h>
 #include <mortise/problem/results/field_files.h>
+#include <mortise/problem/state.h>
 
 #include <vector>
 
