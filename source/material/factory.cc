@@ -2,7 +2,7 @@
 #include <mortise/base/numbers.h>
 #include <mortise/base/quotes.h>
 #include <mortise/material/factory.h>
-#include <mortise/material/neo_hookean.h>
+#include <mortise/material/invariant_laws.h>
 
 #include <algorithm>
 #include <cstring>
@@ -106,17 +106,14 @@ namespace mortise
                                                   law.lame_mu())};
     }
 
-    /// Of the isochoric stretches.
-    Material
-    make_ogden(const MaterialParameters       &given,
-               const std::vector<Ogden::Term> &terms,
-               const bool                      mixed)
+    /// The law of small strains with a shear modulus.
+    LinearElastic
+    hooke_of_shear(const MaterialParameters &given,
+                   const double              shear_modulus,
+                   const bool                mixed)
     {
-      const double        nu = given.poisson_ratio;
-      const LinearElastic law{2. * (1. + nu) * Ogden::shear_modulus(terms),
-                              nu,
-                              mixed};
-      return {law, std::make_shared<Ogden>(law, terms)};
+      const double nu = given.poisson_ratio;
+      return {2. * (1. + nu) * shear_modulus, nu, mixed};
     }
 
     Material
@@ -133,9 +130,12 @@ namespace mortise
              "C10 + C01 = " + text_of(given.c10 + given.c01),
              modulus_words + allowed_moduli());
       check_poisson_ratio(given, true, where);
-      return make_ogden(given,
-                        {{2. * given.c10, 2.}, {-2. * given.c01, -2.}},
-                        mixed);
+      const LinearElastic law =
+        hooke_of_shear(given, 2. * (given.c10 + given.c01), mixed);
+      return {law,
+              std::make_shared<MooneyRivlin>(VolumetricLaw(law),
+                                             given.c10,
+                                             given.c01)};
     }
 
     Material
@@ -154,7 +154,10 @@ namespace mortise
                text_of(term.modulus) + ", " + text_of(term.exponent),
                allowed);
       check_poisson_ratio(given, true, where);
-      return make_ogden(given, given.ogden_terms, mixed);
+      const LinearElastic law =
+        hooke_of_shear(given, Ogden::shear_modulus(given.ogden_terms), mixed);
+      return {law,
+              std::make_shared<Ogden>(VolumetricLaw(law), given.ogden_terms)};
     }
 
     Material

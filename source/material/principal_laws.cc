@@ -58,45 +58,6 @@ namespace mortise
       }
   }
 
-  void
-  StVenantKirchhoff::principal(const Strain &strain,
-                               V (&tau)[3],
-                               V (&slope)[3][3]) const
-  {
-    const V(&x)[3] = strain.squares; // twice Green's strains
-    const V mean   = 0.5 * lambda * (x[0] + x[1] + x[2]);
-    for (unsigned int a = 0; a < 3; ++a)
-      {
-        tau[a] = (1. + x[a]) * (mean + mu * x[a]);
-        for (unsigned int b = 0; b < 3; ++b)
-          slope[a][b] = lambda * (1. + x[a]) * (1. + x[b]);
-        slope[a][a] += 2. * tau[a] + 2. * mu * (1. + x[a]) * (1. + x[a]);
-      }
-  }
-
-  Ogden::Ogden(const LinearElastic &small, const std::vector<Term> &terms)
-    : mixed(small.mixed)
-    , kept(small.displacement_lambda() + 2. / 3. * small.lame_mu())
-    , compliance(3. * (1. - 2. * small.poisson_ratio) / small.young_modulus)
-    , terms(terms)
-  {}
-
-  void
-  Ogden::dilatation_of_pressure(const V &p, V &value, V &slope) const
-  {
-    // (exp(2 x) - 1) / 2 - k / kappa x + p / kappa = 0
-    const double share = kept * compliance;
-    V            x     = -p * compliance / (1. - share);
-    for (unsigned int k = 0; k < 8; ++k)
-      {
-        const V square = expm1(2. * x);
-        x -=
-          (0.5 * square - share * x + p * compliance) / (1. + square - share);
-      }
-    value = x;
-    slope = -compliance / (1. + expm1(2. * x) - share);
-  }
-
   double
   Ogden::shear_modulus(const std::vector<Term> &terms)
   {
@@ -111,12 +72,13 @@ namespace mortise
   {
     const V(&ln)[3]   = strain.logarithms;
     const V ln_volume = ln[0] + ln[1] + ln[2];
-    const V square    = expm1(2. * ln_volume); // J^2 - 1
+    V       mean, of_mean;
+    volume.get(ln_volume, mean, of_mean);
     for (unsigned int a = 0; a < 3; ++a)
       {
-        tau[a] = kept * (mixed ? ln_volume : 0.5 * square);
+        tau[a] = mean;
         for (unsigned int b = 0; b < 3; ++b)
-          slope[a][b] = kept * (mixed ? V{} + 1. : 1. + square);
+          slope[a][b] = of_mean;
       }
     for (const Term &term : terms)
       {

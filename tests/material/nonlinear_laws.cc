@@ -6,8 +6,8 @@
 // them: logarithms, exponentials, eigensystems, also of equal eigenvalues.
 #include <mortise/base/rigid_motion.h>
 #include <mortise/material/factory.h>
+#include <mortise/material/invariant_laws.h>
 #include <mortise/material/kinematics.h>
-#include <mortise/material/neo_hookean.h>
 #include <mortise/material/voigt.h>
 #include <verdict.h>
 
@@ -291,6 +291,38 @@ namespace
     verdict(name + ": rotations without stress", worst, 1e-13);
   }
 
+  /// Mooney and Rivlin's law is that of Ogden with the exponents 2 and -2.
+  void
+  check_invariants()
+  {
+    const double mu = 10. / 2.6;
+    for (const bool mixed : {false, true})
+      {
+        const LinearElastic small{10., 0.3, mixed};
+        const VolumetricLaw volume(small);
+        const MooneyRivlin  by_invariants(volume, 0.4 * mu, 0.1 * mu);
+        const Ogden by_stretches(volume, {{0.8 * mu, 2.}, {-0.2 * mu, -2.}});
+        double      of_stress = 0., of_tangent = 0.;
+        for (unsigned int k = 0; k < 20; ++k)
+          {
+            const Matrix h = any_matrix(k < 10 ? 1e-6 : 0.3),
+                         w = any_matrix(1.);
+            of_stress =
+              std::max(of_stress,
+                       relative_difference(stress(by_invariants, h, {}),
+                                           stress(by_stretches, h, {})));
+            of_tangent = std::max(
+              of_tangent,
+              relative_difference(tangent_product(by_invariants, h, w, {}),
+                                  tangent_product(by_stretches, h, w, {})));
+          }
+        const std::string name =
+          mixed ? "invariants, mixed form" : "invariants";
+        verdict(name + ": stress", of_stress, 1e-13);
+        verdict(name + ": tangent", of_tangent, 1e-11);
+      }
+  }
+
   void
   check_mixed(const std::string &name)
   {
@@ -462,6 +494,7 @@ main()
   check_tangent("J2 plasticity", *make("J2 plasticity", false, 0.3, false));
   check_tangent("J2 plasticity at finite strain", *make("J2 plasticity"));
   check_rotations("J2 plasticity at finite strain", *make("J2 plasticity"));
+  check_invariants();
   check_plasticity();
   check_table();
 }

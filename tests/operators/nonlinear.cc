@@ -10,8 +10,7 @@
 // of ranks.
 #include <deal.II/lac/la_parallel_vector.h>
 
-#include <mortise/material/neo_hookean.h>
-#include <mortise/material/principal_laws.h>
+#include <mortise/material/invariant_laws.h>
 #include <mortise/operators/matrix_free/matrix_free_elasticity.h>
 
 #include <cmath>

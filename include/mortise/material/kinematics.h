@@ -34,12 +34,13 @@ namespace mortise
   inline void
   invert(const V (&a)[3][3], const V &det, V (&inverse)[3][3])
   {
+    const V factor = (V{} + 1) / det;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
         {
           const unsigned int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3,
                              s = (j + 2) % 3;
-          inverse[j][i]        = (a[p][r] * a[q][s] - a[p][s] * a[q][r]) / det;
+          inverse[j][i] = factor * (a[p][r] * a[q][s] - a[p][s] * a[q][r]);
         }
   }
 

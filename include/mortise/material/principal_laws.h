@@ -1,12 +1,11 @@
-// Isotropic hyperelastic laws by their principal stretches l_a: Hencky's, St.
-// Venant and Kirchhoff's, Ogden's, of which Mooney and Rivlin's and the
-// neo-Hookean law of the isochoric stretches are cases. Source: Ogden,
+// Isotropic hyperelastic laws by their principal stretches l_a: Hencky's and
+// Ogden's. Source: Ogden,
 // Non-Linear Elastic Deformations, section 4.3; Holzapfel, Nonlinear Solid
 // Mechanics, section 6.5.
 #pragma once
 
-#include <mortise/material/linear_elastic.h>
 #include <mortise/material/logarithmic_law.h>
+#include <mortise/material/volumetric_law.h>
 
 #include <vector>
 
@@ -59,26 +58,8 @@ namespace mortise
     const double lambda, mu;
   };
 
-  /// W = lambda / 2 tr^2 E + mu E : E in Green's strain E.
-  class StVenantKirchhoff : public PrincipalLaw
-  {
-  public:
-    StVenantKirchhoff(const double lambda, const double mu)
-      : lambda(lambda)
-      , mu(mu)
-    {}
-
-  private:
-    void
-    principal(const Strain &strain,
-              V (&tau)[3],
-              V (&slope)[3][3]) const override;
-
-    const double lambda, mu;
-  };
-
-  /// W = sum_p mu_p / alpha_p (sum_a J^(-alpha_p / 3) l_a^alpha_p - 3) + kappa
-  /// / 4 (J^2 - 1 - 2 ln J).
+  /// W = sum_p mu_p / alpha_p (sum_a J^(-alpha_p / 3) l_a^alpha_p - 3) + U(J)
+  /// with U of VolumetricLaw.
   class Ogden : public PrincipalLaw
   {
   public:
@@ -88,18 +69,20 @@ namespace mortise
       double exponent; ///< alpha_p, not zero
     };
 
-    /// @p small: the law of small strains, kappa and the form in which a body has
-    /// it: in mixed form the stress has the part k ln J of the pressure that
-    /// LinearElastic::displacement_lambda() says.
-    Ogden(const LinearElastic &small, const std::vector<Term> &terms);
+    Ogden(const VolumetricLaw &volume, const std::vector<Term> &terms)
+      : volume(volume)
+      , terms(terms)
+    {}
 
     /// mu = sum_p mu_p alpha_p / 2, the shear modulus of small strains.
     static double
     shear_modulus(const std::vector<Term> &terms);
 
-    /// ln J with kappa / 2 (J^2 - 1) - k ln J = -p.
     void
-    dilatation_of_pressure(const V &p, V &value, V &slope) const override;
+    dilatation_of_pressure(const V &p, V &value, V &slope) const override
+    {
+      volume.dilatation_of_pressure(p, value, slope);
+    }
 
   private:
     void
@@ -107,9 +90,7 @@ namespace mortise
               V (&tau)[3],
               V (&slope)[3][3]) const override;
 
-    const bool              mixed;
-    const double            kept;       ///< k if mixed, else kappa
-    const double            compliance; ///< 1 / kappa
+    const VolumetricLaw     volume;
     const std::vector<Term> terms;
   };
 } // namespace mortise
