@@ -24,45 +24,40 @@ namespace mortise::testing
   using Law = NonlinearLaw;
   using V   = Law::V;
 
-  /// One of the laws that kernels are compiled for.
+  /// Hooke's.
   class LinearLaw : public Law
   {
   public:
-    explicit LinearLaw(const Material &material)
-      : law(material.displacement_law())
+    explicit LinearLaw(const LinearElastic &small)
+      : law(small.law<double>())
     {}
 
     TangentForm
     form() const override
     {
-      return TangentForm::full;
+      return TangentForm::rank_one;
     }
 
     void
     stress(const V (&h)[3][3], const V *, V *, V (&s)[3][3]) const override
     {
-      std::visit([&](const auto &any) { any.stress(h, s); }, law);
+      law.stress(h, s);
     }
 
     void
-    tangent(const V (&)[3][3], const V *, V *C) const override
+    tangent(const V (&)[3][3], const V *, V *moduli) const override
     {
-      const Moduli moduli =
-        std::visit([](const auto &any) { return mortise::moduli(any); }, law);
-      constexpr unsigned int index[6][2] = {
-        {0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
-      for (unsigned int i = 0; i < 6; ++i)
-        for (unsigned int j = i; j < 6; ++j)
-          *C++ =
-            V{} + moduli[index[i][0]][index[i][1]][index[j][0]][index[j][1]];
+      std::fill_n(moduli, n_moduli(form()), V{});
+      moduli[0] = V{} + law.mu;
+      moduli[1] = V{} + law.lambda;
     }
 
   private:
-    const PointLaw<double> law;
+    const IsotropicLaw<double> law;
   };
 
   /// s = lambda tr(e) I + 2 (1 + beta e:e + alpha) e with the strain e, after
-  /// which alpha is larger by e:e.
+  /// which alpha is larger by e:e; beta <= 0.
   class CubicLaw : public Law
   {
   public:
@@ -73,7 +68,7 @@ namespace mortise::testing
     TangentForm
     form() const override
     {
-      return TangentForm::full;
+      return TangentForm::rank_one;
     }
 
     unsigned int
@@ -104,7 +99,7 @@ namespace mortise::testing
     }
 
     void
-    tangent(const V (&h)[3][3], const V *before, V *C) const override
+    tangent(const V (&h)[3][3], const V *before, V *moduli) const override
     {
       const V e[6]   = {h[0][0],
                         h[1][1],
@@ -115,15 +110,10 @@ namespace mortise::testing
       V       square = {};
       for (unsigned int i = 0; i < 6; ++i)
         square += (i < 3 ? 1. : 2.) * e[i] * e[i];
+      moduli[0] = 1. + beta * square + before[0];
+      moduli[1] = V{} + lambda;
       for (unsigned int i = 0; i < 6; ++i)
-        for (unsigned int j = i; j < 6; ++j, ++C)
-          {
-            *C = 4. * beta * e[i] * e[j];
-            if (j < 3)
-              *C += lambda;
-            if (i == j)
-              *C += (i < 3 ? 2. : 1.) * (1. + beta * square + before[0]);
-          }
+        moduli[2 + i] = 2. * std::sqrt(-beta) * e[i];
     }
 
   private:
@@ -247,16 +237,14 @@ namespace mortise::testing
   }
 
   void
-  check_linear(const std::string &name,
-               const std::string &kind,
-               const unsigned int p,
-               const Material    &material)
+  check_hooke(const std::string &name,
+              const std::string &kind,
+              const unsigned int p)
   {
-    const Scene    scene(kind, p, material);
-    const Scene    same(kind,
-                     p,
-                     Material(LinearElastic(),
-                              std::make_shared<LinearLaw>(material)));
+    const LinearElastic hooke{2., 0.3};
+    const Scene         scene(kind, p, hooke);
+    const Scene         same(
+      kind, p, Material(LinearElastic(), std::make_shared<LinearLaw>(hooke)));
     const Field    u      = scene.random_field(1);
     const Operator linear = scene.stiffness();
     Operator       K      = same.stiffness();
@@ -272,9 +260,20 @@ namespace mortise::testing
     verdict(name + ", diagonal",
             difference(diagonal(scene, K), diagonal(scene, linear)),
             1e-12);
+  }
+
+  void
+  check_linear(const std::string &name,
+               const std::string &kind,
+               const unsigned int p,
+               const Material    &material)
+  {
+    const Scene    scene(kind, p, material);
+    const Field    u      = scene.random_field(1);
+    const Operator linear = scene.stiffness();
     verdict(name + ", force by the linear kernel",
             difference(respond(scene, linear, u, linear.no_history()).force,
-                       expected),
+                       product(scene, linear, u)),
             1e-15);
   }
 
@@ -374,7 +373,7 @@ namespace mortise::testing
     const auto law = [](const double beta) {
       return Material(LinearElastic(), std::make_shared<CubicLaw>(beta));
     };
-    const Scene scene(kind, p, law(2.)), other(kind, p, law(3.));
+    const Scene scene(kind, p, law(-2.)), other(kind, p, law(-1.));
     const Field u = scene.random_field(1), v = scene.random_field(2),
                 w = scene.random_field(3);
     Operator K    = scene.stiffness();
@@ -423,7 +422,9 @@ namespace mortise::testing
                 d       = scaled(scene.random_field(4), strain);
     Operator      K     = scene.stiffness();
     const History none  = K.no_history();
-    const Field   of_w  = check_tangent(name, scene, K, {u, v, w}, none, 1e-8);
+    // tangents are kept in single precision
+    const double single = 2e-7;
+    const Field  of_w = check_tangent(name, scene, K, {u, v, w}, none, single);
     // the linear change of the stress is exact to first order
     const auto change = [&](const double length) {
       const Field from = sum(u, scaled(d, length));
@@ -431,8 +432,8 @@ namespace mortise::testing
       K.linearise(fields(u), none, {}, fields(from));
       return difference(product(scene, K, w), of_w);
     };
-    verdict(name + ", from the same state", change(0.), 1e-13);
-    const double whole = change(1e-2), half = change(5e-3);
+    verdict(name + ", from the same state", change(0.), single);
+    const double whole = change(4e-2), half = change(2e-2);
     verdict(name + ", of second order", std::fabs(whole / half - 4.), 0.05);
   }
 } // namespace mortise::testing
@@ -453,6 +454,7 @@ main(int argc, char **argv)
     for (const unsigned int p : {1, 2, 3, 6})
       {
         const std::string name = kind + ", p = " + std::to_string(p) + ": ";
+        check_hooke(name + "Hooke", kind, p);
         check_linear(name + "Hooke", kind, p, mortise::LinearElastic{2., 0.3});
         check_linear(name + "orthotropic", kind, p, wood);
         check_cubic(name + "cubic", kind, p);

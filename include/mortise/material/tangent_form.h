@@ -15,18 +15,15 @@ namespace mortise
     /// s = lambda' tr(e) I + 2 mu' e - (n : e) n at small strain: mu', lambda',
     /// n as xx, yy, zz, yz, zx, xy.
     rank_one,
-    /// s = C e at small strain: the upper triangle of C as that of
-    /// AnisotropicLaw, row by row.
-    full,
-    /// s = C e + grad du tau at finite strain.
+    /// s = C e + grad du tau at finite strain: the upper triangle of C as that
+    /// of AnisotropicLaw, row by row.
     full_finite
   };
 
   constexpr bool
   is_finite(const TangentForm form)
   {
-    return form == TangentForm::isotropic_finite ||
-           form == TangentForm::full_finite;
+    return form != TangentForm::rank_one;
   }
 
   constexpr unsigned int
@@ -58,20 +55,34 @@ namespace mortise
         case TangentForm::rank_one:
           return visit(
             std::integral_constant<TangentForm, TangentForm::rank_one>());
-        case TangentForm::full:
-          return visit(
-            std::integral_constant<TangentForm, TangentForm::full>());
         case TangentForm::full_finite:
           return visit(
             std::integral_constant<TangentForm, TangentForm::full_finite>());
       }
   }
 
-  /// A tangent at one point of several cells.
+  /// The type in which kernels keep the numbers of a tangent. At finite strain
+  /// single precision is enough, since residuals are exact, and products take
+  /// the time that these numbers need from memory. At small strain the tangent
+  /// of an elastic step is exact. Metrics are exact, too, so that rigid motions
+  /// have no forces and constant pressures of bodies that are held all around
+  /// none.
   template <typename Number, TangentForm form>
+  using StoredTangent = std::conditional_t<is_finite(form), float, Number>;
+
+  /// A tangent at one point of several cells. @p Stored: what numbers are kept
+  /// as.
+  template <typename Number, TangentForm form, typename Stored = Number>
   struct TangentAt
   {
-    const typename Batch<Number>::Vector *data;
+    const typename BatchAs<Number, Stored>::Vector *data;
+
+    /// Number @p k of the tangent.
+    inline __attribute__((always_inline)) typename Batch<Number>::Vector
+    number(const unsigned int k) const
+    {
+      return __builtin_convertvector(data[k], typename Batch<Number>::Vector);
+    }
 
     /// @p h: the gradient of du, with respect to deformed coordinates at finite
     /// strain.
@@ -82,10 +93,10 @@ namespace mortise
       if constexpr (form == TangentForm::isotropic_finite ||
                     form == TangentForm::rank_one)
         {
-          const V mean = data[1] * (h[0][0] + h[1][1] + h[2][2]);
+          const V mean = number(1) * (h[0][0] + h[1][1] + h[2][2]);
           for (unsigned int c = 0; c < 3; ++c)
             for (unsigned int e = c; e < 3; ++e)
-              s[c][e] = s[e][c] = data[0] * (h[c][e] + h[e][c]);
+              s[c][e] = s[e][c] = number(0) * (h[c][e] + h[e][c]);
           for (unsigned int c = 0; c < 3; ++c)
             s[c][c] += mean;
           if constexpr (form == TangentForm::rank_one)
@@ -95,10 +106,10 @@ namespace mortise
         full_product(h, s);
       if constexpr (is_finite(form))
         {
-          const V *t         = data + n_moduli(form);
-          const V  tau[3][3] = {{t[0], t[5], t[4]},
-                                {t[5], t[1], t[3]},
-                                {t[4], t[3], t[2]}};
+          constexpr unsigned int n = n_moduli(form);
+          const V tau[3][3]        = {{number(n), number(n + 5), number(n + 4)},
+                                      {number(n + 5), number(n + 1), number(n + 3)},
+                                      {number(n + 4), number(n + 3), number(n + 2)}};
           for (unsigned int c = 0; c < 3; ++c)
             for (unsigned int e = 0; e < 3; ++e)
               s[c][e] +=
@@ -141,9 +152,10 @@ namespace mortise
 #pragma GCC unroll 6
         for (unsigned int j = i; j < 6; ++j, ++k)
           {
-            sum[i] += data[k] * strain[j];
+            const V modulus = number(k);
+            sum[i] += modulus * strain[j];
             if (j > i)
-              sum[j] += data[k] * strain[i];
+              sum[j] += modulus * strain[i];
           }
       for (unsigned int c = 0; c < 3; ++c)
         {

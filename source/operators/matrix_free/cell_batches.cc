@@ -131,10 +131,18 @@ namespace mortise
                                       pressure_order.size() * width);
         if (batches.nonlinear)
           {
-            batches.tangent.resize(batches.n_batches * quadrature.size() *
-                                   batches.n_numbers() * width);
-            if (is_finite(batches.nonlinear->form()))
-              batches.deformed_metric.resize(batches.metric.size());
+            const TangentForm form = batches.nonlinear->form();
+            const std::size_t n_points =
+              batches.n_batches * quadrature.size() * width;
+            if (is_finite(form))
+              {
+                batches.finite_tangent.resize(n_points * n_tangent(form));
+                batches.deformed_metric.resize(batches.metric.size());
+              }
+            else
+              batches.tangent.resize(n_points * n_tangent(form));
+            if (pressures != nullptr)
+              batches.pressure_tangent.resize(2 * n_points);
           }
         for (unsigned int i = 0; i < cells.all.size(); ++i)
           {

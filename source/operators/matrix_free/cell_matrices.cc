@@ -42,14 +42,16 @@ namespace mortise
             one.pressure_nodes[k * width + lane] = lane * n_p + k;
         }
       one.nonlinear    = cells.nonlinear;
-      const auto share = [&](const AlignedVector<Number> &all) {
-        const std::size_t     n = all.size() / cells.n_batches;
-        AlignedVector<Number> part(n);
+      const auto share = [&](const auto &all) {
+        const std::size_t           n = all.size() / cells.n_batches;
+        std::decay_t<decltype(all)> part(n);
         std::copy_n(all.begin() + batch * n, n, part.begin());
         return part;
       };
-      one.tangent         = share(cells.tangent);
-      one.deformed_metric = share(cells.deformed_metric);
+      one.tangent          = share(cells.tangent);
+      one.finite_tangent   = share(cells.finite_tangent);
+      one.pressure_tangent = share(cells.pressure_tangent);
+      one.deformed_metric  = share(cells.deformed_metric);
       one.metric.resize((one.n_affine == 1 ? 1 : cells.n_points) * dim * dim *
                         width);
       std::copy_n(cells.metric_of(batch),

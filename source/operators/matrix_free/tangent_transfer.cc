@@ -160,22 +160,24 @@ namespace mortise
       void
       take_numbers(const unsigned int cell)
       {
-        const unsigned int n_from = fine.n_numbers(), n_to = coarse.n_numbers();
-        for (unsigned int q = 0; q < points.size(); ++q)
-          {
-            Number *target =
-              &coarse.tangent[coarse_point(cell, q) * n_to * to + cell % to];
-            for (unsigned int k = 0; k < n_common; ++k)
-              {
-                double sum = 0.;
-                for (const auto &[r, weight] : points[q])
-                  sum +=
-                    weight *
-                    fine.tangent[(fine_point(cell, r) * n_from + k) * from +
-                                 cell % from];
-                target[k * to] = sum;
-              }
-          }
+        with_form(fine.nonlinear->form(), [&](const auto form) {
+          constexpr unsigned int n       = n_tangent(form());
+          const auto            *numbers = fine.tangent_of<form()>();
+          for (unsigned int q = 0; q < points.size(); ++q)
+            {
+              auto *target = coarse.template tangent_of<form()>() +
+                             coarse_point(cell, q) * n * to + cell % to;
+              for (unsigned int k = 0; k < n_common; ++k)
+                {
+                  double sum = 0.;
+                  for (const auto &[r, weight] : points[q])
+                    sum +=
+                      weight * numbers[(fine_point(cell, r) * n + k) * from +
+                                       cell % from];
+                  target[k * to] = sum;
+                }
+            }
+        });
       }
 
       void

@@ -69,19 +69,34 @@ namespace mortise
     /// Of a body whose law is not linear, else null; all its cells count as
     /// curved.
     std::shared_ptr<const NonlinearLaw> nonlinear;
-    /// Its tangent at the points, [batch][point][number][lane], else empty: the
-    /// n_tangent() numbers of its form, and in mixed form sqrt(w |J|) and the
-    /// slope of NonlinearLaw::dilatation_of_pressure().
+    /// Its tangent at the points, the n_tangent() numbers of its form as
+    /// [batch][point][number][lane], else empty: that of small strain or that
+    /// of finite strain, see StoredTangent.
     dealii::AlignedVector<Number> tangent;
+    dealii::AlignedVector<float>  finite_tangent;
+    /// In mixed form sqrt(w |J|) and the slope of
+    /// NonlinearLaw::dilatation_of_pressure() as [batch][point][2][lane].
+    dealii::AlignedVector<Number> pressure_tangent;
     /// At finite strain the metric of the tangent, dxi_a/dx_e sqrt(w |J|) with
     /// deformed coordinates x but the volume |J| of undeformed cells.
     dealii::AlignedVector<Number> deformed_metric;
 
-    /// Numbers of tangent at a point.
-    unsigned int
-    n_numbers() const
+    /// The tangent of a law of this form.
+    template <TangentForm form>
+    StoredTangent<Number, form> *
+    tangent_of()
     {
-      return n_tangent(nonlinear->form()) + (n_pressure_nodes == 0 ? 0 : 2);
+      if constexpr (is_finite(form))
+        return finite_tangent.data();
+      else
+        return tangent.data();
+    }
+
+    template <TangentForm form>
+    const StoredTangent<Number, form> *
+    tangent_of() const
+    {
+      return const_cast<CellBatches &>(*this).tangent_of<form>();
     }
 
     /// Cells of a batch.

@@ -85,9 +85,8 @@ namespace mortise
       const NonlinearLaw &law     = *cells.nonlinear;
       const bool          finite  = is_finite(law.form());
       const bool          goes_on = finite && previous.displacement != nullptr;
-      const unsigned int  n       = cells.n_numbers();
-      V                  *tangent = reinterpret_cast<V *>(cells.tangent.data()),
-        *deformed = reinterpret_cast<V *>(cells.deformed_metric.data());
+      V *deformed    = reinterpret_cast<V *>(cells.deformed_metric.data()),
+        *of_pressure = reinterpret_cast<V *>(cells.pressure_tangent.data());
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           if (goes_on)
@@ -97,12 +96,19 @@ namespace mortise
           if constexpr (mixed)
             p = this->pressures(cells, batch, src.pressure);
           at_states(cells, batch, state, [&](const auto &at, const Point &is) {
-            V      *numbers  = tangent + is.number * n;
+            V       numbers[n_tangent(TangentForm::full_finite)];
             const V pressure = mixed ? p[at.q] : V{};
             V       tau[dim][dim];
             if (goes_on)
-              kept[at.q].get_linear(
-                law.form(), numbers, is.volume, is.h, pressure, tau);
+              {
+                with_form(law.form(), [&](const auto form) {
+                  this->template load_tangent<form()>(cells,
+                                                      is.number,
+                                                      numbers);
+                });
+                kept[at.q].get_linear(
+                  law.form(), numbers, is.volume, is.h, pressure, tau);
+              }
             else if (finite)
               get_stress(law, is, pressure, tau);
             law.tangent(is.h, is.before, numbers);
@@ -114,22 +120,25 @@ namespace mortise
                 set_initial_stress(tau, numbers + n_moduli(law.form()));
                 for (unsigned int k = 0; k < n_tangent(law.form()); ++k)
                   numbers[k] *= is.volume;
-                invert_gradient(is.h, 1. + dilatation(is.h), inverse);
+                // F_e^{-1} / (1 + thermal strain)
+                invert_gradient(is.h,
+                                is.stretch * (1. + dilatation(is.h)),
+                                inverse);
                 V *G = deformed + is.number * dim * dim;
                 for (unsigned int a = 0; a < dim; ++a)
                   for (unsigned int e = 0; e < dim; ++e)
-                    G[dim * a + e] =
-                      (at.G[a][0] * inverse[0][e] + at.G[a][1] * inverse[1][e] +
-                       at.G[a][2] * inverse[2][e]) /
-                      is.stretch;
+                    G[dim * a + e] = at.G[a][0] * inverse[0][e] +
+                                     at.G[a][1] * inverse[1][e] +
+                                     at.G[a][2] * inverse[2][e];
               }
             if constexpr (mixed)
               {
-                V unused;
-                numbers[n - 2] = is.root * is.volume;
-                law.dilatation_of_pressure(p[at.q], unused, numbers[n - 1]);
-                numbers[n - 1] /= is.volume;
+                V unused, *root = of_pressure + 2 * is.number, &slope = root[1];
+                *root = is.root * is.volume;
+                law.dilatation_of_pressure(p[at.q], unused, slope);
+                slope /= is.volume;
               }
+            store_tangent(numbers, cells, is.number);
           });
         }
     }
@@ -146,17 +155,19 @@ namespace mortise
           {
             V *g = this->gradients(cells, batch, src.displacement),
               *p = this->pressures(cells, batch, src.pressure);
-            const unsigned int n = cells.n_numbers();
+            const V *of_pressure = pressure_tangent(cells, batch);
             this->at_laws(cells, batch, [=](const auto &law, const auto &at) {
               V h[dim][dim], s[dim][dim];
               gradient_at(g + at.q, at.n, at.G, h);
               law.tangent(Undeformed(), h, s);
-              const V root = law.data[n - 2], weighted = root * p[at.q];
+              const V root     = of_pressure[2 * at.q],
+                      slope    = of_pressure[2 * at.q + 1],
+                      weighted = root * p[at.q];
               for (unsigned int c = 0; c < dim; ++c)
                 s[c][c] -= weighted;
               set_stress(s, at.G, at.n, g + at.q);
-              p[at.q] = -root * (h[0][0] + h[1][1] + h[2][2] -
-                                 law.data[n - 1] * weighted);
+              p[at.q] =
+                -root * (h[0][0] + h[1][1] + h[2][2] - slope * weighted);
             });
             this->add_forces(cells, batch, dst.displacement);
             this->add_tested(cells, batch, dst.pressure);
@@ -173,10 +184,10 @@ namespace mortise
           V *g = this->gradients();
           for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
             {
-              const V           *values = this->pressures(cells, batch, p);
-              const unsigned int n      = cells.n_numbers();
-              this->at_laws(cells, batch, [=](const auto &law, const auto &at) {
-                const V weighted = -law.data[n - 2] * values[at.q];
+              const V *values      = this->pressures(cells, batch, p);
+              const V *of_pressure = pressure_tangent(cells, batch);
+              this->at_laws(cells, batch, [=](const auto &, const auto &at) {
+                const V weighted = -of_pressure[2 * at.q] * values[at.q];
                 for (unsigned int c = 0; c < dim; ++c)
                   for (unsigned int a = 0; a < dim; ++a)
                     g[(dim * c + a) * at.n + at.q] = weighted * at.G[a][c];
@@ -189,6 +200,30 @@ namespace mortise
     }
 
   private:
+    static const V *
+    pressure_tangent(const CellBatches<Number> &cells, const unsigned int batch)
+    {
+      return reinterpret_cast<const V *>(cells.pressure_tangent.data()) +
+             2 * std::size_t(batch) * cells.n_points;
+    }
+
+    static void
+    store_tangent(const V             *numbers,
+                  CellBatches<Number> &cells,
+                  const std::size_t    number)
+    {
+      with_form(cells.nonlinear->form(), [&](const auto form) {
+        using Stored             = StoredTangent<Number, form()>;
+        constexpr unsigned int n = n_tangent(form());
+        auto                  *to =
+          in_batches<Number>(cells.template tangent_of<form()>()) + number * n;
+        for (unsigned int k = 0; k < n; ++k)
+          to[k] =
+            __builtin_convertvector(numbers[k],
+                                    typename BatchAs<Number, Stored>::Vector);
+      });
+    }
+
     struct Point
     {
       std::size_t number;      ///< among the points of all batches
@@ -221,10 +256,10 @@ namespace mortise
             reinterpret_cast<const V *>(state.history) + is.number * n_history;
           gradient_at(g + at.q, at.n, at.G, is.h);
           // lanes without a cell have no metric
-          const V divisor = is.root > 0. ? is.root : V{} + 1.;
+          const V factor = is.root > 0. ? 1. / is.root : V{};
           for (auto &row : is.h)
             for (V &entry : row)
-              entry /= divisor;
+              entry *= factor;
           if (state.thermal_strains != nullptr)
             remove_thermal_strain(reinterpret_cast<const V *>(
                                     state.thermal_strains)[is.number],
@@ -274,11 +309,12 @@ namespace mortise
       if (!finite)
         return;
       // F = (1 + strain) F_e
-      is.stretch = 1. + strain;
-      is.volume  = is.stretch * is.stretch * is.stretch;
+      is.stretch     = 1. + strain;
+      is.volume      = is.stretch * is.stretch * is.stretch;
+      const V factor = 1. / is.stretch;
       for (auto &row : is.h)
         for (V &entry : row)
-          entry /= is.stretch;
+          entry *= factor;
     }
 
     /// P = tau F^{-T}.

@@ -40,14 +40,16 @@ namespace mortise
             const unsigned int         batch,
             const Visit               &visit) const
     {
-      const unsigned int n = cells.n_numbers();
-      const V *tangent     = reinterpret_cast<const V *>(cells.tangent.data()) +
-                         std::size_t(batch) * cells.n_points * n;
       with_form(cells.nonlinear->form(), [&](const auto form) {
+        using Stored         = StoredTangent<Number, form()>;
+        constexpr unsigned n = n_tangent(form());
+        const auto        *tangent =
+          in_batches<Number>(cells.template tangent_of<form()>()) +
+          std::size_t(batch) * cells.n_points * n;
         this->template at_points_of<false>(
           tangent_metric(cells, batch), [=](const auto &at) {
             fetch(tangent + (at.q + at.n) * n, n);
-            visit(TangentAt<Number, form()>{tangent + at.q * n}, at);
+            visit(TangentAt<Number, form(), Stored>{tangent + at.q * n}, at);
           });
       });
     }
@@ -57,7 +59,6 @@ namespace mortise
                    const bool                 initial_stress) override
     {
       std::vector<Moduli> result(cells.n_cells);
-      const unsigned int  n = cells.n_numbers();
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           V sums[dim][dim][dim][dim] = {}, volume = {};
@@ -70,10 +71,7 @@ namespace mortise
                 V       inverse[dim][dim];
                 get_inverse(cells, number, at.G, inverse);
                 V numbers[n_tangent(form())];
-                std::memcpy(numbers,
-                            reinterpret_cast<const V *>(cells.tangent.data()) +
-                              number * n,
-                            sizeof numbers);
+                load_tangent<form()>(cells, number, numbers);
                 if (!initial_stress)
                   std::fill(numbers + n_moduli(form()),
                             numbers + n_tangent(form()),
@@ -144,6 +142,20 @@ namespace mortise
     }
 
   protected:
+    /// The tangent at point @p number, to @p numbers.
+    template <TangentForm form>
+    static void
+    load_tangent(const CellBatches<Number> &cells,
+                 const std::size_t          number,
+                 V                         *numbers)
+    {
+      constexpr unsigned int n = n_tangent(form);
+      const auto            *from =
+        in_batches<Number>(cells.template tangent_of<form>()) + number * n;
+      for (unsigned int k = 0; k < n; ++k)
+        numbers[k] = __builtin_convertvector(from[k], V);
+    }
+
     static const Number *
     tangent_metric(const CellBatches<Number> &cells, const unsigned int batch)
     {
