@@ -34,6 +34,12 @@ namespace mortise
 
     /// Relative to the forces of a step.
     constexpr double largest_residual = 1e3;
+
+    /// A step starts from an extrapolation that leaves less than this part of
+    /// the residual of the last state: bodies that bend are stretched by it,
+    /// and then an iteration of Newton's method from there is worse.
+    constexpr double       extrapolated_residual = 0.1;
+    constexpr unsigned int most_accepted         = 3;
   } // namespace
 
   NonlinearStep::NonlinearStep(const RunContext &run,
@@ -216,6 +222,40 @@ namespace mortise
     return x;
   }
 
+  void
+  NonlinearStep::extrapolate(SystemVector &x)
+  {
+    if (accepted.empty() || x.time > accepted.back().time)
+      accepted.push_back(x);
+    if (accepted.size() > most_accepted)
+      accepted.pop_front();
+    if (accepted.size() == 1)
+      return;
+    const double time     = data->at_time();
+    double       smallest = extrapolated_residual * residual(x);
+    for (unsigned int n = 2; n <= accepted.size(); ++n)
+      {
+        // the polynomial through the last n states
+        const auto   first = accepted.end() - n;
+        SystemVector ahead = discretisation.linear_system().zero_vector();
+        for (auto i = first; i != accepted.end(); ++i)
+          {
+            double factor = 1.;
+            for (auto j = first; j != accepted.end(); ++j)
+              if (j != i)
+                factor *= (time - j->time) / (i->time - j->time);
+            add_scaled(ahead, factor, *i);
+          }
+        ahead.time         = accepted.back().time;
+        const double there = residual(ahead);
+        if (there < smallest)
+          {
+            x        = ahead;
+            smallest = there;
+          }
+      }
+  }
+
   SolveReport
   NonlinearStep::iterate(const State &last, SystemVector &x)
   {
@@ -223,9 +263,11 @@ namespace mortise
     before    = last.history.empty() ? system.bulk->no_history() : last.history;
     reference = size = size_before = 0.;
     linearised_at.reset();
-    why = "Newton's method stagnates";
     if (!norm)
       norm = std::make_unique<ScaledResidual>(system);
+    if (along == nullptr && contact == nullptr)
+      extrapolate(x);
+    why = "Newton's method stagnates";
     NewtonOptions options;
     // problems of contact are solved to the tolerance beside all forces
     options.tolerance =

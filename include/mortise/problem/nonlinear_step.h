@@ -13,6 +13,7 @@
 #include <mortise/solvers/newton.h>
 #include <mortise/solvers/scaled_residual.h>
 
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -120,6 +121,10 @@ namespace mortise
     finish(const SystemVector &x, State &next);
     SystemVector
     first_iterate(const State &last) const;
+    /// Let @p x, the last state, go on as the states before it did, where this
+    /// leaves a much smaller residual.
+    void
+    extrapolate(SystemVector &x);
     /// Set the response to @p x and r without what prescribed displacements
     /// lack; false if a cell inverts.
     bool
@@ -148,7 +153,8 @@ namespace mortise
     /// Indices of owned components that are prescribed.
     std::vector<unsigned int>       prescribed, hanging;
     std::unique_ptr<ScaledResidual> norm;
-    std::optional<ArcLength>        arc; ///< with arc-length control
+    std::optional<ArcLength>        arc;      ///< with arc-length control
+    std::deque<SystemVector>        accepted; ///< the last states
 
     // of the present step
     SceneLoad                  *load    = nullptr;

@@ -37,6 +37,12 @@ namespace mortise
     /// Throws InputError if the bodies do not fit a named exact solution.
     SceneData(const Parameters &parameters, double time, FieldChecks &checks);
 
+    double
+    at_time() const
+    {
+      return time;
+    }
+
     /// The exact solution of the parameters; null without. Named ones take
     /// radii, pressures, materials and rigid motion from the bodies.
     const std::shared_ptr<const ExactSolution> &
