@@ -4,7 +4,8 @@
 //   inf_sup pressure [KEY=VALUE]...
 //     degree, source, cells, extent, subdivisions, distort, refine (see "Refine
 //     near"), regions ("id:degree,..."), clamped (names, or all), equal=1 for
-//     pressures of the displacement's degree
+//     pressures of the displacement's degree; state and size of a deformation,
+//     see inf_sup_stretched.h, with clamped=all
 //   inf_sup multiplier [KEY=VALUE]...
 //     the same for the slave, those of the master with master_ before them,
 //     extent, master_extent; reduced=0 for multipliers that ignore clamped
@@ -15,6 +16,7 @@
 #include <sstream>
 
 #include "../solvers/inf_sup_multiplier.h"
+#include "../solvers/inf_sup_stretched.h"
 
 using namespace mortise;
 using namespace mortise::testing;
@@ -107,9 +109,14 @@ namespace
   void
   pressure(const Options &options)
   {
-    const auto result = pressure_inf_sup(read_body(options, "", "0,0,0,1,1,1"),
-                                         options.text("clamped", "") == "all",
-                                         options.value("equal", 0) == 1);
+    const InfSupBody  body  = read_body(options, "", "0,0,0,1,1,1");
+    const std::string state = options.text("state", "");
+    const auto        result =
+      state.empty() ?
+               pressure_inf_sup(body,
+                         options.text("clamped", "") == "all",
+                         options.value("equal", 0) == 1) :
+               stretched_inf_sup(body, deformation(state, options.value("size", 1.)));
     std::printf("{\"displacements\": %u, \"pressures\": %u, \"kernel\": %u, "
                 "\"beta\": %.6g, \"largest\": %.6g}\n",
                 result.displacements,

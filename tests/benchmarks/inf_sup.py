@@ -46,6 +46,16 @@ def pressure_cases():
         yield "curved", {"degree": p, "source": "shell octant", "extent": "1,2", "subdivisions": "1,1", "clamped": "outside"}
 
 
+STATES = (("stretch", 1), ("stretch", 2), ("stretch", 4), ("press", 2), ("shear", 1), ("shear", 3), ("twist", 1))
+
+
+def stretched_cases():
+    for cells in ("hexahedra", "tetrahedra"):
+        for p, n in ((2, 2), (2, 4), (3, 2), (4, 2)):
+            for state, size in STATES:
+                yield "stretched", {"degree": p, "cells": cells, "subdivisions": cube(n), "clamped": "all", "state": state, "size": size}
+
+
 RIMS = {"free": {}, "both": {"clamped": "sides", "master_clamped": "sides"}, "slave": {"clamped": "sides"},
         "master": {"master_clamped": "sides"}, "ends": {"clamped": "xmin,xmax", "master_clamped": "xmin,xmax"}}
 
@@ -110,7 +120,7 @@ def rows_of_last_run():
 
 
 def compute(program, tables):
-    cases = [case for cases in (pressure_cases(), block_cases(), strip_cases()) for case in cases]
+    cases = [case for cases in (pressure_cases(), stretched_cases(), block_cases(), strip_cases()) for case in cases]
     kept = [row for row in rows_of_last_run() if row["table"] not in tables] if tables else []
     cases.sort(key=lambda case: case[1]["degree"])
     names = ["table"]

@@ -79,6 +79,12 @@ def pressure_tables(rows):
     yield ("beta, and in brackets how many pressures no displacement feels; one of them is the constant, which is the only one "
            "in all\ntables above:\n")
     yield pivot(pick(rows, "equal"), "", shape, degree, lambda r: f"{beta(r)} ({r['kernel']})")
+    yield "### Deformed states, whole boundary held\n"
+    yield STRETCHED
+    states = {"stretch": "stretched {} times", "press": "pressed, stretched {} times both ways", "shear": "sheared by {}",
+              "twist": "twisted by {} right angle"}
+    yield pivot(pick(rows, "stretched"), "", lambda r: states[r["state"]].format(r["size"]),
+                lambda r: f"{r['cells']}, p = {r['degree']}, n = {r['subdivisions'][0]}", beta)
 
 
 def multiplier_tables(rows):
@@ -201,6 +207,11 @@ For the displacements of degree p and the continuous pressures of degree p - 1 o
 where A, with the Dirichlet conditions, is the displacement's own block of the program's mixed form (nu = 1/2, mu = 1/2), so that
 beta is at most sqrt(12/7) = 1.309, and at most sqrt(4/5) = 0.894 where the whole boundary is held. In that case the constant
 pressure, which no displacement feels, is left out.
+"""
+
+STRETCHED = """A neo-Hookean cube without pressure, deformed without change of volume: A is the tangent of the program there, mu int (grad u :
+grad v^T + Grad u : Grad v) + 1/4 div u div v, and G, div and grad are those of the deformed configuration. Constants fall as those of the
+deformed box do, whose cells get long, and not with h or p; no state has a second pressure that no displacement feels.
 """
 
 MULTIPLIERS = """## Multipliers

@@ -306,6 +306,26 @@ namespace mortise::testing
     double       largest = 0.; ///< root of the largest
   };
 
+  /// From @p S = G K^{-1} G^T and @p M of all free pressures.
+  inline PressureInfSup
+  pressure_result(const unsigned int displacements,
+                  const DenseMatrix &S,
+                  const DenseMatrix &M,
+                  const bool         closed)
+  {
+    const auto     values = generalized_eigenvalues(S, M);
+    PressureInfSup result;
+    result.displacements = displacements;
+    result.pressures     = values.size();
+    result.kernel =
+      std::count_if(values.begin(), values.end(), [](const double value) {
+        return value < 1e-10;
+      });
+    result.beta    = std::sqrt(std::max(0., values[closed ? 1 : 0]));
+    result.largest = std::sqrt(values.back());
+    return result;
+  }
+
   /// Of one body whose boundary is held on @p given.clamped; if that is all of
   /// it (@p closed) the constant pressure is left out. K is the displacement's
   /// block of the mixed form at nu = 1/2 with mu = 1/2,
@@ -344,16 +364,9 @@ namespace mortise::testing
     DenseMatrix       M(free.size(), free.size());
     add_dense(system.mass, free, M);
 
-    const auto     values = generalized_eigenvalues(S, M);
-    PressureInfSup result;
-    result.displacements = u.numbering.size() - u.constraints.n_constraints();
-    result.pressures     = free.size();
-    result.kernel =
-      std::count_if(values.begin(), values.end(), [](const double value) {
-        return value < 1e-10;
-      });
-    result.beta    = std::sqrt(std::max(0., values[closed ? 1 : 0]));
-    result.largest = std::sqrt(values.back());
-    return result;
+    return pressure_result(u.numbering.size() - u.constraints.n_constraints(),
+                           S,
+                           M,
+                           closed);
   }
 } // namespace mortise::testing
