@@ -211,7 +211,7 @@ pressure, which no displacement feels, is left out.
 
 STRETCHED = """A neo-Hookean cube without pressure, deformed without change of volume: A is the tangent of the program there, mu int (grad u :
 grad v^T + Grad u : Grad v) + 1/4 div u div v, and G, div and grad are those of the deformed configuration. Constants fall as those of the
-deformed box do, whose cells get long, and not with h or p; no state has a second pressure that no displacement feels.
+deformed box do, whose cells get long, not with h, and with p as before; no state has a second pressure that no displacement feels.
 """
 
 MULTIPLIERS = """## Multipliers
