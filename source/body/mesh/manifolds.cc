@@ -57,6 +57,37 @@ namespace mortise
       return result;
     }
 
+    /// The shorter arc of the unit sphere between two of its points, by its
+    /// angle.
+    class Arc
+    {
+    public:
+      Arc() = default;
+
+      Arc(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
+        : a(a)
+        , angle(2. * std::asin(0.5 * (b - a).norm()))
+        , across((b - std::cos(angle) * a) / std::sin(angle))
+      {}
+
+      Tensor<1, 3>
+      at(const double t) const
+      {
+        return std::cos(t * angle) * a + std::sin(t * angle) * across;
+      }
+
+      Tensor<1, 3>
+      slope(const double t) const
+      {
+        return angle * (std::cos(t * angle) * across - std::sin(t * angle) * a);
+      }
+
+    private:
+      Tensor<1, 3> a;
+      double       angle = 0.;
+      Tensor<1, 3> across;
+    };
+
     /// The chart of one coarse cell of a shell octant.
     class OctantChart
     {
@@ -88,6 +119,10 @@ namespace mortise
               }
             corner[v] /= corner[v].norm();
           }
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int side = 0; side < 2; ++side)
+            arc[i][side] =
+              Arc(corner[side * (2 - i)], corner[side * (2 - i) + 1 + i]);
       }
 
       /// (radius, xi, eta).
@@ -98,8 +133,8 @@ namespace mortise
         double xi = 0.5, eta = 0.5;
         for (unsigned int iteration = 0; iteration < 20; ++iteration)
           {
-            const Tensor<1, 3> b = mean(xi, eta), b_xi = slope(0, eta),
-                               b_eta = slope(1, xi);
+            const Tensor<1, 3> b = mean(xi, eta), b_xi = slope(0, xi, eta),
+                               b_eta = slope(1, xi, eta);
             const auto across        = [&](const Tensor<1, 3> &y,
                                     const unsigned int  i) {
               return y[along(i)] * x[axis] - y[axis] * x[along(i)];
@@ -130,8 +165,8 @@ namespace mortise
       derivative(const Point<3> &chart, const Tensor<1, 3> &direction) const
       {
         const Tensor<1, 3> b = mean(chart[1], chart[2]), e = b / b.norm(),
-                           rate = direction[1] * slope(0, chart[2]) +
-                                  direction[2] * slope(1, chart[1]);
+                           rate = direction[1] * slope(0, chart[1], chart[2]) +
+                                  direction[2] * slope(1, chart[1], chart[2]);
         return direction[0] * e +
                (chart[0] / b.norm()) * (rate - (rate * e) * e);
       }
@@ -143,23 +178,32 @@ namespace mortise
         return (axis + 1 + i) % 3;
       }
 
+      /// Between the arcs of the edges, as Coons does.
       Tensor<1, 3>
       mean(const double xi, const double eta) const
       {
-        return (1. - eta) * ((1. - xi) * corner[0] + xi * corner[1]) +
-               eta * ((1. - xi) * corner[2] + xi * corner[3]);
+        return (1. - eta) *
+                 (arc[0][0].at(xi) - (1. - xi) * corner[0] - xi * corner[1]) +
+               eta *
+                 (arc[0][1].at(xi) - (1. - xi) * corner[2] - xi * corner[3]) +
+               (1. - xi) * arc[1][0].at(eta) + xi * arc[1][1].at(eta);
       }
 
-      /// d mean / d xi (i = 0) or eta (1), where the other one is @p t.
+      /// d mean / d xi (i = 0) or eta (1).
       Tensor<1, 3>
-      slope(const unsigned int i, const double t) const
+      slope(const unsigned int i, const double xi, const double eta) const
       {
-        return (1. - t) * (corner[1 + i] - corner[0]) +
-               t * (corner[3] - corner[2 - i]);
+        const double t = i == 0 ? xi : eta, across = i == 0 ? eta : xi;
+        return (1. - across) * arc[i][0].slope(t) +
+               across * arc[i][1].slope(t) + arc[1 - i][1].at(across) -
+               arc[1 - i][0].at(across) -
+               (1. - across) * (corner[1 + i] - corner[0]) -
+               across * (corner[3] - corner[2 - i]);
       }
 
       unsigned int                axis = 0;
       std::array<Tensor<1, 3>, 4> corner;
+      Arc arc[2][2]; ///< along xi at eta = 0, 1, along eta at xi = 0, 1
     };
   } // namespace
 
