@@ -66,9 +66,46 @@ namespace mortise
   /// the time that these numbers need from memory. At small strain the tangent
   /// of an elastic step is exact. Metrics are exact, too, so that rigid motions
   /// have no forces and constant pressures of bodies that are held all around
-  /// none.
+  /// none. Preconditioners, which multiply in single precision, need a few
+  /// digits.
   template <typename Number, TangentForm form>
-  using StoredTangent = std::conditional_t<is_finite(form), float, Number>;
+  using StoredTangent = std::conditional_t<
+    !is_finite(form),
+    Number,
+    std::conditional_t<std::is_same_v<Number, double>, float, UpperHalf>>;
+
+  /// Are the moduli kept in two parts, as what is left of those of an isotropic
+  /// law and, behind the numbers of the tangent, its mu' and lambda'? What few
+  /// digits leave of a volumetric modulus would be as large as that of shear.
+  template <typename Stored>
+  constexpr bool
+  in_two_parts(const TangentForm form)
+  {
+    return form == TangentForm::full_finite &&
+           std::is_same_v<Stored, UpperHalf>;
+  }
+
+  /// visit(k, C_k) for the numbers of full_finite that are not zero for the law
+  /// with mu' and lambda'.
+  template <typename V, typename Visit>
+  inline void
+  for_isotropic_moduli(const V &mu, const V &lambda, const Visit &visit)
+  {
+    for (unsigned int i = 0, k = 0; i < 6; ++i)
+      for (unsigned int j = i; j < 6; ++j, ++k)
+        if (j < 3)
+          visit(k, i == j ? lambda + mu + mu : lambda);
+        else if (i == j)
+          visit(k, mu);
+  }
+
+  /// Numbers that are kept of a point.
+  template <typename Stored>
+  constexpr unsigned int
+  n_stored(const TangentForm form)
+  {
+    return n_tangent(form) + (in_two_parts<Stored>(form) ? 2 : 0);
+  }
 
   /// A tangent at one point of several cells. @p Stored: what numbers are kept
   /// as.
@@ -81,7 +118,7 @@ namespace mortise
     inline __attribute__((always_inline)) typename Batch<Number>::Vector
     number(const unsigned int k) const
     {
-      return __builtin_convertvector(data[k], typename Batch<Number>::Vector);
+      return unpacked<Number, Stored>(data[k]);
     }
 
     /// @p h: the gradient of du, with respect to deformed coordinates at finite
@@ -90,20 +127,26 @@ namespace mortise
     inline __attribute__((always_inline)) void
     tangent(const State &, const V (&h)[3][3], V (&s)[3][3]) const
     {
-      if constexpr (form == TangentForm::isotropic_finite ||
-                    form == TangentForm::rank_one)
+      constexpr bool two_parts = in_two_parts<Stored>(form);
+      if constexpr (form == TangentForm::full_finite)
+        full_product(h, s);
+      if constexpr (form != TangentForm::full_finite || two_parts)
         {
-          const V mean = number(1) * (h[0][0] + h[1][1] + h[2][2]);
+          constexpr unsigned int first = two_parts ? n_tangent(form) : 0;
+          const V mean = number(first + 1) * (h[0][0] + h[1][1] + h[2][2]);
           for (unsigned int c = 0; c < 3; ++c)
             for (unsigned int e = c; e < 3; ++e)
-              s[c][e] = s[e][c] = number(0) * (h[c][e] + h[e][c]);
-          for (unsigned int c = 0; c < 3; ++c)
-            s[c][c] += mean;
-          if constexpr (form == TangentForm::rank_one)
-            subtract_rank_one(h, s);
+              {
+                V shear = number(first) * (h[c][e] + h[e][c]);
+                if (c == e)
+                  shear += mean;
+                if (two_parts)
+                  shear += s[c][e];
+                s[c][e] = s[e][c] = shear;
+              }
         }
-      else
-        full_product(h, s);
+      if constexpr (form == TangentForm::rank_one)
+        subtract_rank_one(h, s);
       if constexpr (is_finite(form))
         {
           constexpr unsigned int n = n_moduli(form);

@@ -136,7 +136,9 @@ namespace mortise
               batches.n_batches * quadrature.size() * width;
             if (is_finite(form))
               {
-                batches.finite_tangent.resize(n_points * n_tangent(form));
+                batches.finite_tangent.resize(
+                  n_points *
+                  n_stored<typename CellBatches<Number>::Stored>(form));
                 batches.deformed_metric.resize(batches.metric.size());
               }
             else

@@ -161,23 +161,59 @@ namespace mortise
       take_numbers(const unsigned int cell)
       {
         with_form(fine.nonlinear->form(), [&](const auto form) {
-          constexpr unsigned int n       = n_tangent(form());
-          const auto            *numbers = fine.tangent_of<form()>();
+          using Stored                  = StoredTangent<Number, form()>;
+          constexpr unsigned int n_from = n_tangent(form()),
+                                 n_to   = n_stored<Stored>(form());
+          const auto *numbers           = fine.tangent_of<form()>() +
+                                fine_point(cell, 0) * n_from * from +
+                                cell % from;
           for (unsigned int q = 0; q < points.size(); ++q)
             {
-              auto *target = coarse.template tangent_of<form()>() +
-                             coarse_point(cell, q) * n * to + cell % to;
+              double mean[n_from] = {};
+              for (const auto &[r, weight] : points[q])
+                for (unsigned int k = 0; k < n_common; ++k)
+                  mean[k] += weight * numbers[(r * n_from + k) * from];
+              Stored *target = coarse.template tangent_of<form()>() +
+                               coarse_point(cell, q) * n_to * to + cell % to;
+              if constexpr (in_two_parts<Stored>(form()))
+                split_moduli(mean, target + n_from * to);
               for (unsigned int k = 0; k < n_common; ++k)
-                {
-                  double sum = 0.;
-                  for (const auto &[r, weight] : points[q])
-                    sum +=
-                      weight * numbers[(fine_point(cell, r) * n + k) * from +
-                                       cell % from];
-                  target[k * to] = sum;
-                }
+                store(mean[k], target[k * to]);
             }
         });
+      }
+
+      static void
+      store(const double x, double &to)
+      {
+        to = x;
+      }
+
+      static void
+      store(const double x, float &to)
+      {
+        to = x;
+      }
+
+      static void
+      store(const double x, UpperHalf &to)
+      {
+        to = upper_half(x);
+      }
+
+      /// Take an isotropic law from @p moduli, whose mu' and lambda' are stored
+      /// at @p isotropic.
+      static void
+      split_moduli(double *moduli, UpperHalf *isotropic)
+      {
+        // those of yz, zx, xy; of xx with yy, xx with zz, yy with zz
+        store((moduli[15] + moduli[18] + moduli[20]) / 3., isotropic[0]);
+        store((moduli[1] + moduli[2] + moduli[7]) / 3., isotropic[to]);
+        for_isotropic_moduli(from_upper_half(isotropic[0]),
+                             from_upper_half(isotropic[to]),
+                             [=](const unsigned int k, const double modulus) {
+                               moduli[k] -= modulus;
+                             });
       }
 
       void

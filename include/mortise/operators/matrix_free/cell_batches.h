@@ -31,6 +31,9 @@ namespace mortise
   template <typename Number>
   struct CellBatches
   {
+    /// At finite strain.
+    using Stored = StoredTangent<Number, TangentForm::full_finite>;
+
     CellBatches() = default;
 
     /// Of the owned cells with one element of a body; @p layout, @p pressures: as
@@ -69,11 +72,11 @@ namespace mortise
     /// Of a body whose law is not linear, else null; all its cells count as
     /// curved.
     std::shared_ptr<const NonlinearLaw> nonlinear;
-    /// Its tangent at the points, the n_tangent() numbers of its form as
+    /// Its tangent at the points, the n_stored() numbers of its form as
     /// [batch][point][number][lane], else empty: that of small strain or that
     /// of finite strain, see StoredTangent.
     dealii::AlignedVector<Number> tangent;
-    dealii::AlignedVector<float>  finite_tangent;
+    dealii::AlignedVector<Stored> finite_tangent;
     /// In mixed form sqrt(w |J|) and the slope of
     /// NonlinearLaw::dilatation_of_pressure() as [batch][point][2][lane].
     dealii::AlignedVector<Number> pressure_tangent;

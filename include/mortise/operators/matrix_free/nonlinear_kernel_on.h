@@ -214,7 +214,7 @@ namespace mortise
     {
       with_form(cells.nonlinear->form(), [&](const auto form) {
         using Stored             = StoredTangent<Number, form()>;
-        constexpr unsigned int n = n_tangent(form());
+        constexpr unsigned int n = n_stored<Stored>(form());
         auto                  *to =
           in_batches<Number>(cells.template tangent_of<form()>()) + number * n;
         for (unsigned int k = 0; k < n; ++k)

@@ -42,7 +42,7 @@ namespace mortise
     {
       with_form(cells.nonlinear->form(), [&](const auto form) {
         using Stored         = StoredTangent<Number, form()>;
-        constexpr unsigned n = n_tangent(form());
+        constexpr unsigned n = n_stored<Stored>(form());
         const auto        *tangent =
           in_batches<Number>(cells.template tangent_of<form()>()) +
           std::size_t(batch) * cells.n_points * n;
@@ -149,11 +149,18 @@ namespace mortise
                  const std::size_t          number,
                  V                         *numbers)
     {
-      constexpr unsigned int n = n_tangent(form);
-      const auto            *from =
-        in_batches<Number>(cells.template tangent_of<form>()) + number * n;
-      for (unsigned int k = 0; k < n; ++k)
-        numbers[k] = __builtin_convertvector(from[k], V);
+      using Stored = StoredTangent<Number, form>;
+      const TangentAt<Number, form, Stored> kept{
+        in_batches<Number>(cells.template tangent_of<form>()) +
+        number * n_stored<Stored>(form)};
+      for (unsigned int k = 0; k < n_tangent(form); ++k)
+        numbers[k] = kept.number(k);
+      if constexpr (in_two_parts<Stored>(form))
+        for_isotropic_moduli(kept.number(n_tangent(form)),
+                             kept.number(n_tangent(form) + 1),
+                             [=](const unsigned int k, const V &modulus) {
+                               numbers[k] += modulus;
+                             });
     }
 
     static const Number *
