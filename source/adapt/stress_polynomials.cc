@@ -121,16 +121,15 @@ namespace mortise
     slopes.mmult(derivatives, projection);
   }
 
-  template <typename StressTensor>
   FullMatrix<double>
-  StressPolynomials::slopes(const std::vector<StressTensor> &stresses) const
+  StressPolynomials::slopes(const std::vector<Tensor<2, dim>> &stresses) const
   {
     constexpr unsigned int n_components =
-      StressTensor::n_independent_components;
+      Tensor<2, dim>::n_independent_components;
     FullMatrix<double> values(stresses.size(), n_components);
     for (unsigned int c = 0; c < n_components; ++c)
       {
-        const auto at = StressTensor::unrolled_to_component_indices(c);
+        const auto at = Tensor<2, dim>::unrolled_to_component_indices(c);
         for (unsigned int k = 0; k < stresses.size(); ++k)
           values(k, c) = stresses[k][at];
       }
@@ -160,10 +159,9 @@ namespace mortise
     return result;
   }
 
-  template <typename StressTensor>
   std::vector<Tensor<1, dim>>
-  StressPolynomials::divergence(const Body::CellIterator        &cell,
-                                const std::vector<StressTensor> &stresses)
+  StressPolynomials::divergence(const Body::CellIterator          &cell,
+                                const std::vector<Tensor<2, dim>> &stresses)
   {
     const auto                 &jacobians = geometry.jacobians(cell);
     std::vector<Tensor<1, dim>> result(jacobians.size());
@@ -171,39 +169,35 @@ namespace mortise
     for (const auto &jacobian : jacobians)
       inverse.push_back(invert(jacobian));
     const FullMatrix<double> along = slopes(stresses);
-    constexpr bool is_symmetric    = std::is_same<StressTensor, Stress>::value;
-    for (unsigned int c = 0; c < StressTensor::n_independent_components; ++c)
+    for (unsigned int c = 0; c < Tensor<2, dim>::n_independent_components; ++c)
       {
-        const auto at = StressTensor::unrolled_to_component_indices(c);
+        const auto at = Tensor<2, dim>::unrolled_to_component_indices(c);
         for (unsigned int a = 0; a < dim; ++a)
           for (unsigned int q = 0; q < result.size(); ++q)
             {
               const double slope = along(a * result.size() + q, c);
               result[q][at[0]] += slope * inverse[q][at[1]][a];
-              if (is_symmetric && at[0] != at[1])
-                result[q][at[1]] += slope * inverse[q][at[0]][a];
             }
       }
     return result;
   }
 
-  template <typename StressTensor>
-  std::vector<StressTensor>
-  StressPolynomials::on_face(const unsigned int               f,
-                             const std::vector<StressTensor> &stresses) const
+  std::vector<Tensor<2, dim>>
+  StressPolynomials::on_face(const unsigned int                 f,
+                             const std::vector<Tensor<2, dim>> &stresses) const
   {
     if (simplex)
       {
-        std::vector<StressTensor> result(projection.m());
+        std::vector<Tensor<2, dim>> result(projection.m());
         for (unsigned int i = 0; i < projection.m(); ++i)
           for (unsigned int q = 0; q < projection.n(); ++q)
             result[i] += projection(i, q) * stresses[q];
         return result;
       }
-    const unsigned int        n = line.size(), d = f / 2;
-    const unsigned int        step = d == 0 ? 1 : d == 1 ? n : n * n;
-    const auto               &end  = ends[f % 2];
-    std::vector<StressTensor> result;
+    const unsigned int          n = line.size(), d = f / 2;
+    const unsigned int          step = d == 0 ? 1 : d == 1 ? n : n * n;
+    const auto                 &end  = ends[f % 2];
+    std::vector<Tensor<2, dim>> result;
     result.reserve(n * n);
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int i = 0; i < n; ++i)
@@ -211,7 +205,7 @@ namespace mortise
           const unsigned int first = d == 0 ? (i + j * n) * n :
                                      d == 1 ? i + j * n * n :
                                               i + j * n;
-          StressTensor       sum;
+          Tensor<2, dim>     sum;
           for (unsigned int k = 0; k < n; ++k)
             sum += end[k] * stresses[first + k * step];
           result.push_back(sum);
@@ -234,16 +228,4 @@ namespace mortise
         result.push_back(a * b);
     return result;
   }
-
-  template std::vector<Tensor<1, dim>>
-  StressPolynomials::divergence(const Body::CellIterator &,
-                                const std::vector<Stress> &);
-  template std::vector<Tensor<1, dim>>
-  StressPolynomials::divergence(const Body::CellIterator &,
-                                const std::vector<Tensor<2, dim>> &);
-  template std::vector<Stress>
-  StressPolynomials::on_face(unsigned int, const std::vector<Stress> &) const;
-  template std::vector<Tensor<2, dim>>
-  StressPolynomials::on_face(unsigned int,
-                             const std::vector<Tensor<2, dim>> &) const;
 } // namespace mortise

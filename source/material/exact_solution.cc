@@ -10,11 +10,6 @@ namespace mortise
 {
   using namespace dealii;
 
-  namespace
-  {
-    const Tensor<2, 3> identity(unit_symmetric_tensor<3>());
-  } // namespace
-
   ExpressionSolution::ExpressionSolution(
     const VectorExpression        &displacement,
     const std::vector<Material>   &materials,
@@ -30,13 +25,8 @@ namespace mortise
   ExpressionSolution::elastic_gradient(const Point<3>    &p,
                                        const unsigned int body) const
   {
-    const double strain   = thermal_strain(p, body);
-    Tensor<2, 3> gradient = expression.gradient(p);
-    for (unsigned int i = 0; i < 3; ++i)
-      gradient[i][i] -= strain;
-    // F = (1 + strain) F_e
-    return materials[body].has_finite_strain() ? gradient / (1. + strain) :
-                                                 gradient;
+    return materials[body].elastic_gradient(expression.gradient(p),
+                                            thermal_strain(p, body));
   }
 
   double
@@ -70,8 +60,9 @@ namespace mortise
   {
     if (!materials[body].has_finite_strain())
       return stress(p, body);
-    const double strain = thermal_strain(p, body);
-    return (1. + strain) * (1. + strain) *
+    const double stretch =
+      materials[body].thermal_stretch(thermal_strain(p, body));
+    return stretch * stretch *
            materials[body]
              .respond(elastic_gradient(p, body), pressure_at(p, body))
              .nominal;
@@ -96,7 +87,7 @@ namespace mortise
       // tau = P F^T has the trace 3 (p - mean pressure)
       Tensor<2, 3> tau = material.nominal_change(gradient, 0., slope, 0.);
       if (material.has_finite_strain())
-        tau = tau * transpose(identity + gradient) +
+        tau = tau * transpose(deformation_gradient(gradient)) +
               material.respond(gradient, 0.).nominal * transpose(slope);
       return material.nominal_change(gradient,
                                      pressure,
@@ -112,7 +103,7 @@ namespace mortise
     AssertIndexRange(body, materials.size());
     const Material &material = materials[body];
     const bool      finite   = material.has_finite_strain();
-    const double    stretch  = finite ? 1. + thermal_strain(p, body) : 1.;
+    const double    stretch = material.thermal_stretch(thermal_strain(p, body));
     // of linear laws any gradient serves
     const Tensor<2, 3> gradient =
       material.nonlinear() ? elastic_gradient(p, body) : Tensor<2, 3>();
@@ -130,7 +121,8 @@ namespace mortise
         for (unsigned int i = 0; i < 3; ++i)
           for (unsigned int k = 0; k < 3; ++k)
             slope[i][k] = hessian[i][k][j];
-        slope -= strain[j] * (finite ? identity + gradient : identity);
+        slope -=
+          strain[j] * deformation_gradient(finite ? gradient : Tensor<2, 3>());
         Tensor<2, 3> change =
           stretch *
           slope_of_stress(material, gradient, at, slope, stretch * mean[j]);

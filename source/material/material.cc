@@ -52,13 +52,28 @@ namespace mortise
           result[i][j] = lanes[i][j][0];
       return result;
     }
-
-    Tensor<2, 3>
-    deformation_gradient(const Tensor<2, 3> &gradient)
-    {
-      return Tensor<2, 3>(unit_symmetric_tensor<3>()) + gradient;
-    }
   } // namespace
+
+  Tensor<2, 3>
+  deformation_gradient(const Tensor<2, 3> &gradient)
+  {
+    return Tensor<2, 3>(unit_symmetric_tensor<3>()) + gradient;
+  }
+
+  double
+  Material::thermal_stretch(const double thermal_strain) const
+  {
+    return has_finite_strain() ? 1. + thermal_strain : 1.;
+  }
+
+  Tensor<2, 3>
+  Material::elastic_gradient(Tensor<2, 3> gradient,
+                             const double thermal_strain) const
+  {
+    for (unsigned int c = 0; c < 3; ++c)
+      gradient[c][c] -= thermal_strain;
+    return gradient / thermal_stretch(thermal_strain);
+  }
 
   double
   Material::pressure(const Tensor<2, 3>          &gradient,
@@ -111,6 +126,26 @@ namespace mortise
     return nonlinear_law && is_finite(nonlinear_law->form());
   }
 
+  double
+  Material::dilatation(const Tensor<2, 3> &gradient) const
+  {
+    if (!has_finite_strain())
+      return trace(gradient);
+    Lanes h;
+    spread(gradient, h);
+    return std::log1p(mortise::dilatation(h)[0]);
+  }
+
+  Material::PressureDilatation
+  Material::dilatation_of_pressure(const double p) const
+  {
+    if (!nonlinear_law)
+      return {-compressibility() * p, -compressibility()};
+    DoubleBatch value, slope;
+    nonlinear_law->dilatation_of_pressure(DoubleBatch{} + p, value, slope);
+    return {value[0], slope[0]};
+  }
+
   Material::Response
   Material::respond(const Tensor<2, 3> &gradient,
                     const double        pressure,
@@ -138,7 +173,8 @@ namespace mortise
     for (unsigned int i = 0; i < 3; ++i)
       s[i][i] -= pressure;
     const bool        finite = has_finite_strain();
-    const DoubleBatch J      = finite ? 1. + dilatation(h) : DoubleBatch{} + 1.;
+    const DoubleBatch J =
+      finite ? 1. + mortise::dilatation(h) : DoubleBatch{} + 1.;
     invert_gradient(h, J, inverse);
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)

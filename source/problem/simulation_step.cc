@@ -71,15 +71,8 @@ namespace mortise
     report = std::move(next.report);
     if (!report.converged && !equations->nonlinear_reason().empty())
       return write_reached(writes);
-    state = std::move(next.state);
-    const StepEvaluation evaluation(context,
-                                    equations->discretisation,
-                                    {*data,
-                                     *load,
-                                     state.solution,
-                                     state.history,
-                                     equations->solved_contact(),
-                                     state.shortenings});
+    state                           = std::move(next.state);
+    const StepEvaluation evaluation = evaluate(*data, *load);
     {
       const auto stage = context.log.stage(context.timers, "postprocess");
       if (adaptivity)
@@ -119,17 +112,25 @@ namespace mortise
   {
     if (!writes || adaptivity || steps.output_due() || summary.steps.empty())
       return; // states of other meshes were written with their cycles
-    const SceneData      data(context.parameters, state.time, field_checks);
-    const SceneLoad      load = equations->discretisation.load(data);
-    const StepEvaluation evaluation(context,
-                                    equations->discretisation,
-                                    {data,
-                                     load,
-                                     state.solution,
-                                     state.history,
-                                     equations->solved_contact(),
-                                     state.shortenings});
-    output.write_fields(steps, state.time, evaluation, NumbersByCell());
+    const SceneData data(context.parameters, state.time, field_checks);
+    const SceneLoad load = equations->discretisation.load(data);
+    output.write_fields(steps,
+                        state.time,
+                        evaluate(data, load),
+                        NumbersByCell());
+  }
+
+  StepEvaluation
+  Simulation::evaluate(const SceneData &data, const SceneLoad &load) const
+  {
+    return StepEvaluation(context,
+                          equations->discretisation,
+                          {data,
+                           load,
+                           state.solution,
+                           state.history,
+                           equations->solved_contact(),
+                           state.shortenings});
   }
 
   void

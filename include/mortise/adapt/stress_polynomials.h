@@ -2,7 +2,7 @@
 // the points of a rule, to be differentiated, and taken to faces.
 #pragma once
 
-#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
 
 #include <mortise/operators/cells/cell_geometry.h>
 
@@ -11,8 +11,6 @@
 
 namespace mortise
 {
-  using Stress = dealii::SymmetricTensor<2, dim>;
-
   class StressPolynomials
   {
   public:
@@ -28,17 +26,16 @@ namespace mortise
     static dealii::Quadrature<dim>
     rule(const Body &body, const dealii::FiniteElement<dim> &element);
 
-    /// At points of rule() on @p cell, a force per volume; @p stresses at nodes().
-    /// @p StressTensor: Stress, or a Tensor of nominal stresses.
-    template <typename StressTensor>
+    /// At points of rule() on @p cell, a force per volume; @p stresses, nominal
+    /// ones, at nodes().
     std::vector<dealii::Tensor<1, dim>>
-    divergence(const Body::CellIterator        &cell,
-               const std::vector<StressTensor> &stresses);
+    divergence(const Body::CellIterator                  &cell,
+               const std::vector<dealii::Tensor<2, dim>> &stresses);
 
     /// Coefficients on face @p f of what has @p stresses at nodes().
-    template <typename StressTensor>
-    std::vector<StressTensor>
-    on_face(unsigned int f, const std::vector<StressTensor> &stresses) const;
+    std::vector<dealii::Tensor<2, dim>>
+    on_face(unsigned int                               f,
+            const std::vector<dealii::Tensor<2, dim>> &stresses) const;
 
     /// By which those of face @p f are to be multiplied at point @p x of the unit cell, which is on it.
     std::vector<double>
@@ -54,9 +51,8 @@ namespace mortise
     prepare_tetrahedra(const Body &body);
     /// Derivatives along the axes of the unit cell at rule(), one axis below
     /// the other; a column for each component.
-    template <typename StressTensor>
     dealii::FullMatrix<double>
-    slopes(const std::vector<StressTensor> &stresses) const;
+    slopes(const std::vector<dealii::Tensor<2, dim>> &stresses) const;
 
     const dealii::FiniteElement<dim> &element;
     const bool                        simplex;

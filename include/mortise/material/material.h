@@ -10,6 +10,10 @@ namespace mortise
 {
   class NonlinearLaw;
 
+  /// F = I + @p gradient, that of the displacement.
+  dealii::Tensor<2, 3>
+  deformation_gradient(const dealii::Tensor<2, 3> &gradient);
+
   class Material
   {
   public:
@@ -70,6 +74,29 @@ namespace mortise
     twice_energy_of_change(const dealii::Tensor<2, 3> &gradient,
                            const dealii::Tensor<2, 3> &change,
                            double                      pressure_change) const;
+
+    /// s = 1 + @p thermal_strain of F = s F_e at finite strain, 1 at small strain.
+    double
+    thermal_stretch(double thermal_strain) const;
+
+    /// @p gradient without @p thermal_strain, as laws take it.
+    dealii::Tensor<2, 3>
+    elastic_gradient(dealii::Tensor<2, 3> gradient,
+                     double               thermal_strain) const;
+
+    /// Of the elastic @p gradient: its trace, or ln J at finite strain.
+    double
+    dilatation(const dealii::Tensor<2, 3> &gradient) const;
+
+    struct PressureDilatation
+    {
+      double value, slope;
+    };
+
+    /// The dilatation that belongs to the pressure @p p of the mixed form, and its
+    /// derivative.
+    PressureDilatation
+    dilatation_of_pressure(double p) const;
 
     /// What a law makes of a deformation at one point.
     struct Response

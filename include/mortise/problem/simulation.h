@@ -87,6 +87,9 @@ namespace mortise
     /// part of a sentence; empty if it did.
     std::string
     because() const;
+    /// Of the state, whose time @p data and @p load are of; they must live on.
+    StepEvaluation
+    evaluate(const SceneData &data, const SceneLoad &load) const;
     /// If @p writes, the fields of the last step that did converge.
     void
     write_reached(bool writes);

@@ -2,7 +2,6 @@
 
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/simplex_basis.h>
-#include <mortise/material/kinematics.h>
 #include <mortise/material/nonlinear_law.h>
 #include <mortise/operators/cells/cell_fields.h>
 #include <mortise/operators/cells/lobatto_table.h>
@@ -160,18 +159,16 @@ namespace mortise
   double
   CellFields::thermal_stretch(const unsigned int q) const
   {
-    return body.material.has_finite_strain() && !thermal_strains.empty() ?
-             1. + thermal_strains[q] :
-             1.;
+    return body.material.thermal_stretch(
+      thermal_strains.empty() ? 0. : thermal_strains[q]);
   }
 
   Tensor<2, dim>
-  CellFields::elastic(Tensor<2, dim> gradient, const unsigned int q) const
+  CellFields::elastic(const Tensor<2, dim> &gradient,
+                      const unsigned int    q) const
   {
-    if (!thermal_strains.empty())
-      for (unsigned int c = 0; c < dim; ++c)
-        gradient[c][c] -= thermal_strains[q];
-    return gradient / thermal_stretch(q);
+    return body.material.elastic_gradient(
+      gradient, thermal_strains.empty() ? 0. : thermal_strains[q]);
   }
 
   Material::Response
@@ -209,15 +206,7 @@ namespace mortise
                             b.gradients[q]);
     // the pressure's column is the row of the dilatation
     const Tensor<2, dim> by_pressure = nominal_change(q, Tensor<2, dim>(), 1.);
-    double               slope       = -material.compressibility();
-    if (const auto &law = material.nonlinear())
-      {
-        DoubleBatch value, slopes;
-        law->dilatation_of_pressure(DoubleBatch{} + pressures[q],
-                                    value,
-                                    slopes);
-        slope = slopes[0];
-      }
+    const double slope = material.dilatation_of_pressure(pressures[q]).slope;
     return scalar_product(nominal_change(q, a.gradients[q], a.pressures[q]),
                           b.gradients[q]) +
            b.pressures[q] * (scalar_product(by_pressure, a.gradients[q]) +
@@ -227,20 +216,8 @@ namespace mortise
   double
   CellFields::missing_dilatation(const unsigned int q) const
   {
-    const Tensor<2, dim> elastic = this->elastic(gradients[q], q);
-    const NonlinearLaw  *law     = body.material.nonlinear().get();
-    if (law == nullptr)
-      return trace(elastic) + body.material.compressibility() * pressures[q];
-    DoubleBatch h[dim][dim], of_pressure, slope;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        h[i][j] = DoubleBatch{} + elastic[i][j];
-    law->dilatation_of_pressure(DoubleBatch{} + pressures[q],
-                                of_pressure,
-                                slope);
-    return (body.material.has_finite_strain() ? std::log1p(dilatation(h)[0]) :
-                                                trace(elastic)) -
-           of_pressure[0];
+    return body.material.dilatation(elastic(gradients[q], q)) -
+           body.material.dilatation_of_pressure(pressures[q]).value;
   }
 
   const double *

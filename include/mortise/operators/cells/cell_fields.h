@@ -52,7 +52,7 @@ namespace mortise
 
     /// @p gradient at point @p q without the thermal strain.
     dealii::Tensor<2, dim>
-    elastic(dealii::Tensor<2, dim> gradient, unsigned int q) const;
+    elastic(const dealii::Tensor<2, dim> &gradient, unsigned int q) const;
 
     Material::Response
     respond(unsigned int q) const;
