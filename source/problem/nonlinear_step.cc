@@ -117,7 +117,7 @@ namespace mortise
     const BlockSystem &system = discretisation.linear_system();
     Vector             forces(r.displacement);
     forces = 0.;
-    system.add_multiplier_force(forces, x.multiplier);
+    system.constraint.Tvmult_add(forces, x.multiplier);
     r.displacement -= forces;
     if (contact != nullptr)
       return; // which sees to gaps itself
@@ -304,6 +304,12 @@ namespace mortise
     next.solution.displacement -= load->prescribed_at_nodes;
     for (const unsigned int i : bulk.levels().front().constrained)
       next.solution.displacement.local_element(i) = 0.;
+    if (contact == nullptr)
+      return;
+    if (newton.converged)
+      contact->accept(*load, next.solution);
+    else
+      contact->go_back();
   }
 
   SolveReport

@@ -76,7 +76,7 @@ namespace mortise
                                x.pressure);
     else
       system.bulk->apply_to_constrained(moved, products);
-    system.add_multiplier_force(products.displacement, x.multiplier);
+    system.constraint.Tvmult_add(products.displacement, x.multiplier);
     SceneLoad linear        = *load;
     linear.rhs.displacement = r.displacement;
     linear.rhs.displacement += products.displacement;

@@ -64,15 +64,12 @@ namespace mortise
   {
     SceneLoad load = discretisation.load(data);
     state.solution = discretisation.system_vector(values, load);
-    if (nonlinear)
-      return nonlinear->resume(load,
-                               values.solutions,
-                               values.increments,
-                               state);
     preloads.begin(data, load);
     if (contact)
       contact->resume(load, state.solution);
-    else
+    if (nonlinear)
+      nonlinear->resume(load, values.solutions, values.increments, state);
+    else if (!contact)
       linear_solver->remember(load.rhs, state.solution);
   }
 
@@ -98,7 +95,11 @@ namespace mortise
           data, contact.get(), load, start.empty() ? last : first, next);
       }
     else if (contact)
-      report = contact->solve(data, load, next.solution);
+      {
+        report = contact->solve(data, load, next.solution);
+        if (report.converged)
+          contact->accept(load, next.solution);
+      }
     else if (start.empty())
       report = preloads.solve(false, load, next.solution);
     else

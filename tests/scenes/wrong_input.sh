@@ -95,8 +95,6 @@ expect 2 'Quantity.*with Law = J2 plasticity of body lower' "$scene" --set "${ma
 expect 2 'Control.*arc length with Adaptivity/Target error' "$prm/balloon.prm" "${steps[@]}" --set 'Adaptivity/Target error=0.1'
 expect 2 'in mixed form with Poisson ratio 0.49' "$scene" --set "${material}Law=neo-Hookean" --set "${material}Poisson ratio=0.49" \
   --set 'Body lower/Degree=2' --set 'Exact solution/Displacement=x*y; 0; 0'
-expect 2 'friction knows bodies of linear laws alone' "$scene" --set "${material}Law=neo-Hookean" --set 'Interface glue/Law=contact' \
-  --set 'Interface glue/Friction coefficient=0.3'
 expect 2 'only Law = tie' "$scene" --set 'Interface glue/Preload=1' --set 'Interface glue/Law=slide'
 expect 2 'a time without a Preload' "$scene" --set 'Interface glue/Preload until=1'
 expect 2 'without Material/Thermal expansion' "$scene" --set 'Body upper/Temperature=20'

@@ -139,6 +139,25 @@ namespace mortise
     remember({load.rhs, x, statuses()});
   }
 
+  void
+  ContactStep::accept(const SceneLoad &load, const SystemVector &x)
+  {
+    if (!friction.empty())
+      friction.accept(set.active(),
+                      x.multiplier,
+                      discretisation.weighted_gaps(load, x));
+    first = friction.records(set.active());
+  }
+
+  void
+  ContactStep::go_back()
+  {
+    last.reset();
+    increments      = SuccessiveSolutions(max_increments);
+    mixed_increment = false;
+    friction.stick();
+  }
+
   std::vector<double>
   ContactStep::pressures(const SystemVector &x) const
   {
@@ -380,13 +399,7 @@ namespace mortise
     options.max_halvings   = 0;
     report                 = solve_newton(*this, options, x);
     if (report.converged)
-      {
-        if (!friction.empty())
-          friction.accept(set.active(),
-                          x.multiplier,
-                          discretisation.weighted_gaps(of_step, x));
-        remember({of_step.rhs, x, statuses()});
-      }
+      remember({of_step.rhs, x, statuses()});
     else if (!lost.empty())
       throw InputError(lost);
     SolveReport result = report.linear;

@@ -71,11 +71,6 @@ namespace mortise
     for (const InterfaceParameters &interface : parameters.interfaces)
       {
         const std::string section = "Interface " + interface.name;
-        if (interface.law == Law::tresca || interface.friction_coefficient)
-          parameters.fail(section + "/Law",
-                          name_of(interface.law) + " with friction " + got,
-                          "tie, slide, spring, or contact without friction: "
-                          "friction knows bodies of linear laws alone");
         if (by_length && is_one_sided(interface.law))
           parameters.fail(control,
                           "arc length with Law = " + name_of(interface.law) +

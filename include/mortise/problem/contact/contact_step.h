@@ -45,6 +45,16 @@ namespace mortise
     SolveReport
     solve(const SceneData &data, SceneLoad &load, SystemVector &x);
 
+    /// The step ends with @p x, the solution of the last solve() for @p load:
+    /// slip counts from here on. Collective.
+    void
+    accept(const SceneLoad &load, const SystemVector &x);
+
+    /// Let the next solve() begin with the contact of the last accept(), not of
+    /// the last solve().
+    void
+    go_back();
+
     /// Continue from @p x, an earlier solution for @p load, with the contact
     /// of the constructor. Collective.
     void
@@ -174,7 +184,7 @@ namespace mortise
     ContactEdge       edge;
     std::uint64_t     n_contact; ///< nodes of contact
 
-    /// By node: the guess for the first step.
+    /// By node: the guess for the first step, and after go_back().
     std::optional<std::vector<ContactRecord>> first;
     std::optional<Solved>                     last; ///< with steps
     SuccessiveSolutions
