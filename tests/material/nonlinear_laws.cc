@@ -271,6 +271,38 @@ namespace
     verdict(name + ": simple shear by 0.8, all components", error, 1e-9);
   }
 
+  /// The work of a closed cycle of gradients through a random plane of them;
+  /// the trapezoidal rule is exact to rounding, since the cycle is smooth.
+  void
+  check_cycle(const std::string &name, const NonlinearLaw &law)
+  {
+    constexpr unsigned int n     = 128;
+    double                 worst = 0.;
+    for (unsigned int k = 0; k < 5; ++k)
+      {
+        const Matrix a = any_matrix(0.15), b = any_matrix(0.15);
+        V            work = {}, size = {};
+        for (unsigned int step = 0; step < n; ++step)
+          {
+            const double angle = 2. * dealii::numbers::PI * step / n,
+                         c = std::cos(angle), s = std::sin(angle);
+            Matrix h, rate;
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = 0; j < 3; ++j)
+                {
+                  h.a[i][j]    = s * a.a[i][j] + (1. - c) * b.a[i][j];
+                  rate.a[i][j] = c * a.a[i][j] + s * b.a[i][j];
+                }
+            const V power =
+              product(nominal(law, stress(law, h, {}), h), rate) / double(n);
+            work += power;
+            size += fabs(power);
+          }
+        worst = std::max(worst, largest(work / size));
+      }
+    verdict(name + ": work of a closed cycle", worst, 1e-10);
+  }
+
   void
   check_rotations(const std::string &name, const NonlinearLaw &law)
   {
@@ -483,6 +515,7 @@ main()
       const auto law = make(name);
       check_shear(name, *law, expected);
       check_rotations(name, *law);
+      check_cycle(name, *law);
       check_tangent(name, *law);
     }
   for (const std::string name :
