@@ -190,6 +190,8 @@ namespace mortise
     class MixedKernelOn;
     template <typename Base>
     class TangentKernelOn;
+    template <typename Base>
+    class KeptTangentOn;
     template <typename Base, bool mixed>
     class NonlinearKernelOn;
 

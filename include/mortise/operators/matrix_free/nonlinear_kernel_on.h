@@ -3,8 +3,8 @@
 #pragma once
 
 #include <mortise/material/kinematics.h>
+#include <mortise/operators/matrix_free/kept_tangent_on.h>
 #include <mortise/operators/matrix_free/stressed_point.h>
-#include <mortise/operators/matrix_free/tangent_kernel_on.h>
 
 namespace mortise
 {
@@ -12,11 +12,11 @@ namespace mortise
   template <typename Number>
   template <typename Base, bool mixed>
   class MatrixFreeElasticity<Number>::NonlinearKernelOn
-    : public TangentKernelOn<Base>
+    : public KeptTangentOn<Base>
   {
   public:
     using V = typename Batch<Number>::Vector;
-    using TangentKernelOn<Base>::TangentKernelOn;
+    using KeptTangentOn<Base>::KeptTangentOn;
 
     LeastJacobian
     add_residual(const CellBatches<Number> &cells,
@@ -138,7 +138,7 @@ namespace mortise
                 law.dilatation_of_pressure(p[at.q], unused, slope);
                 slope /= is.volume;
               }
-            store_tangent(numbers, cells, is.number);
+            this->store_tangent(numbers, cells, is.number);
           });
         }
     }
@@ -205,23 +205,6 @@ namespace mortise
     {
       return reinterpret_cast<const V *>(cells.pressure_tangent.data()) +
              2 * std::size_t(batch) * cells.n_points;
-    }
-
-    static void
-    store_tangent(const V             *numbers,
-                  CellBatches<Number> &cells,
-                  const std::size_t    number)
-    {
-      with_form(cells.nonlinear->form(), [&](const auto form) {
-        using Stored             = StoredTangent<Number, form()>;
-        constexpr unsigned int n = n_stored<Stored>(form());
-        auto                  *to =
-          in_batches<Number>(cells.template tangent_of<form()>()) + number * n;
-        for (unsigned int k = 0; k < n; ++k)
-          to[k] =
-            __builtin_convertvector(numbers[k],
-                                    typename BatchAs<Number, Stored>::Vector);
-      });
     }
 
     struct Point
