@@ -14,18 +14,15 @@ namespace mortise
       return a[0][0] + a[1][1] + a[2][2];
     }
 
-    /// b - I = h + h^T + h h^T.
+    /// b - I = h + h^T + h h^T, C - I of the transpose.
     void
     left_strain(const V (&h)[3][3], V (&strain)[3][3])
     {
+      V transposed[3][3];
       for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = i; j < 3; ++j)
-          {
-            V sum = h[i][j] + h[j][i];
-            for (unsigned int k = 0; k < 3; ++k)
-              sum += h[i][k] * h[j][k];
-            strain[i][j] = strain[j][i] = sum;
-          }
+        for (unsigned int j = 0; j < 3; ++j)
+          transposed[i][j] = h[j][i];
+      right_strain(transposed, strain);
     }
 
     /// Of a symmetric tensor.

@@ -117,6 +117,7 @@ namespace mortise
     const BlockSystem &system = discretisation.linear_system();
     Vector             forces(r.displacement);
     forces = 0.;
+    // iterates have multipliers in their own directions, not in those of slip
     system.constraint.Tvmult_add(forces, x.multiplier);
     r.displacement -= forces;
     if (contact != nullptr)

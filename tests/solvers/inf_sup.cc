@@ -1,9 +1,9 @@
 // Proves on small meshes that the pressures of the mixed form and the
-// multipliers of a tie, clamped rims included, are inf-sup stable, pressures
-// in deformed states, too: constants
-// from eigenvalues stay above bounds, while pressures of the displacement's
-// degree and multipliers without the reduction beside rims have none. The
-// bounds are 0.9 times what doc/measurements/inf_sup.md shows.
+// multipliers of a tie, clamped rims included, are inf-sup stable, pressures in
+// deformed states, too: constants from eigenvalues stay above bounds, while
+// pressures of the displacement's degree and multipliers without the reduction
+// beside rims have none. The bounds are 0.9 times what
+// doc/measurements/inf_sup.md shows.
 #include "../verdict.h"
 #include "inf_sup_multiplier.h"
 #include "inf_sup_stretched.h"

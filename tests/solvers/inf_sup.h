@@ -200,6 +200,17 @@ namespace mortise::testing
     return constraints;
   }
 
+  inline SceneField
+  displacement_field(const Body &body, const InfSupBody &given)
+  {
+    std::vector<dealii::AffineConstraints<double>> constraints(1);
+    constraints[0].copy_from(make_constraints(body, given));
+    SceneField u;
+    u.numbering   = FieldNumbering({&body.dof_handler}, MPI_COMM_WORLD);
+    u.constraints = scene_constraints(u.numbering, constraints);
+    return u;
+  }
+
   /// Replace the pressures of @p body by those of the displacement's degree.
   inline void
   set_equal_order(Body &body)
@@ -341,14 +352,8 @@ namespace mortise::testing
     Body &body = *bodies[0];
     if (equal_order)
       set_equal_order(body);
-    SceneField u;
-    u.numbering        = FieldNumbering({&body.dof_handler}, MPI_COMM_WORLD);
-    u.constraints      = scene_constraints(u.numbering, [&] {
-      std::vector<dealii::AffineConstraints<double>> constraints(1);
-      constraints[0].copy_from(make_constraints(body, given));
-      return constraints;
-    }());
-    const SceneField p = pressure_field(bodies, MPI_COMM_WORLD);
+    const SceneField u      = displacement_field(body, given);
+    const SceneField p      = pressure_field(bodies, MPI_COMM_WORLD);
     const auto       system = assemble_mixed(body, u, p);
 
     Indices free;

@@ -56,13 +56,7 @@ namespace mortise::testing
                                                     hooke.lame_mu())));
     body.create_mesh(given.mesh, MPI_COMM_WORLD, "inf-sup");
     body.create_space(given.degree, {}, "inf-sup");
-    SceneField field;
-    field.numbering   = FieldNumbering({&body.dof_handler}, MPI_COMM_WORLD);
-    field.constraints = scene_constraints(field.numbering, [&] {
-      std::vector<dealii::AffineConstraints<double>> constraints(1);
-      constraints[0].copy_from(make_constraints(body, given));
-      return constraints;
-    }());
+    const SceneField      field = displacement_field(body, given);
     BulkSystem            bulk(make_nodal_spaces({&body}, MPI_COMM_WORLD),
                     make_nodal_pressures({&body}, MPI_COMM_WORLD),
                     BulkSystem::Scene{field.numbering, field.constraints},

@@ -1,7 +1,6 @@
 // Isotropic hyperelastic laws by their principal stretches l_a: Hencky's and
-// Ogden's. Source: Ogden,
-// Non-Linear Elastic Deformations, section 4.3; Holzapfel, Nonlinear Solid
-// Mechanics, section 6.5.
+// Ogden's. Source: Ogden, Non-Linear Elastic Deformations, section 4.3;
+// Holzapfel, Nonlinear Solid Mechanics, section 6.5.
 #pragma once
 
 #include <mortise/material/logarithmic_law.h>

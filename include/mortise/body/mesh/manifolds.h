@@ -49,13 +49,13 @@ namespace mortise
     dealii::Point<3> centre;
   };
 
-  /// The hexahedra of a shell octant, whose coarse cells divide
-  /// each of three patches around an axis a into n x n equal angles atan(x_l /
-  /// x_a), atan(x_k / x_a). Chart: the radius and the coordinates in a coarse
-  /// cell, where a direction is that between great arcs along the edges, by
-  /// their angles (Coons' surface, normalised). However often cells are cut
-  /// they follow the lines of their coarse cell, as those beside them do that
-  /// are not cut. Points are those of one coarse cell.
+  /// The hexahedra of a shell octant, whose coarse cells divide each of three
+  /// patches around an axis a into n x n equal angles atan(x_l / x_a), atan(x_k
+  /// / x_a). Chart: the radius and the coordinates in a coarse cell, where a
+  /// direction is that between great arcs along the edges, by their angles
+  /// (Coons' surface, normalised). However often cells are cut they follow the
+  /// lines of their coarse cell, as those beside them do that are not cut.
+  /// Points are those of one coarse cell.
   class ShellOctantManifold : public MeanManifold
   {
   public:
