@@ -1,0 +1,25 @@
+// A quarter of a plate of 20 by 36 with a hole of radius 5, of thickness 1, cut from the hole to its corner: side is the part beside the hole, end the one towards the end.
+DefineConstant[ mesh_size = 2 ];
+n = Ceil(8 / mesh_size);
+d = 5 * Sqrt(0.5);
+Point(1) = {0, 0, 0}; Point(2) = {5, 0, 0}; Point(3) = {d, d, 0}; Point(4) = {0, 5, 0};
+Point(5) = {10, 0, 0}; Point(6) = {10, 18, 0}; Point(7) = {0, 18, 0};
+Circle(1) = {2, 1, 3}; Circle(2) = {4, 1, 3};
+Line(3) = {5, 6}; Line(4) = {7, 6};
+Line(5) = {2, 5}; Line(6) = {3, 6}; Line(7) = {4, 7};
+Curve Loop(1) = {1, 6, -3, -5}; Curve Loop(2) = {2, 6, -4, -7};
+Plane Surface(1) = {1}; Plane Surface(2) = {2};
+Transfinite Curve{1:4} = n + 1;
+Transfinite Curve{5:7} = n + 1 Using Progression 1.2;
+Transfinite Surface{1, 2}; Recombine Surface{1, 2};
+side() = Extrude{0, 0, 1}{ Surface{1}; Layers{1}; Recombine; };
+end() = Extrude{0, 0, 1}{ Surface{2}; Layers{1}; Recombine; };
+Physical Volume("side") = side(1);
+Physical Volume("end") = end(1);
+e = 1e-3;
+Physical Surface("hole") = {side(2), end(2)};
+Physical Surface("cut") = side(3);
+Physical Surface("ymin") = side(5);
+Physical Surface("ymax") = end(4);
+Physical Surface("xmin") = end(5);
+Physical Surface("faces") = {1, 2, side(0), end(0)};
