@@ -23,13 +23,16 @@ namespace mortise
       std::set<std::string> named;
       for (const InterfaceParameters &interface :
            discretisation.interfaces().sides())
-        if (!interface.is_support && interface.law != Law::tie &&
+        if (!interface.is_support &&
+            (interface.law != Law::tie || interface.preload) &&
             is_finite(run.parameters.bodies[interface.slave.body].material) &&
             named.insert(interface.name).second)
           run.log.warning(
-            "interface " + interface.name +
-            ": Law = " + name_of(interface.law) +
-            " keeps the pairs and normals of the undeformed bodies, and is wrong where they turn or slide far");
+            "interface " + interface.name + ": " +
+            (interface.preload ?
+               "Preload pulls along the normals of the undeformed bodies, and is wrong where they turn" :
+               "Law = " + name_of(interface.law) +
+                 " keeps the pairs and normals of the undeformed bodies, and is wrong where they turn or slide far"));
     }
 
     /// Relative to the forces of a step.
@@ -44,10 +47,12 @@ namespace mortise
 
   NonlinearStep::NonlinearStep(const RunContext &run,
                                Discretisation   &discretisation,
-                               LinearSolver     &solver)
+                               LinearSolver     &solver,
+                               Preloads         &preloads)
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
+    , preloads(preloads)
   {
     const MultigridLevel &level =
       discretisation.linear_system().bulk->levels().front();
@@ -180,11 +185,13 @@ namespace mortise
     size                   = reached == 0. ? 0. : reached / reference;
     const double tolerance = run.parameters.solver.tolerance;
     if (size > tolerance && (is_first || size < largest_rounding) &&
-        reached <= attainable(x))
+        (stays || reached <= attainable(x)))
       size = tolerance;
     // a body that is prescribed as a whole has no forces that could be left
     if (rest.linfty_norm() > 0. || (is_first && contact != nullptr))
       size = std::max(size, 2. * tolerance);
+    if (along == nullptr)
+      size = std::max(size, preloads.lack(x));
     balanced = size <= tolerance;
     if (along != nullptr)
       size = std::max(size, arc->rest(x.displacement));
@@ -263,6 +270,7 @@ namespace mortise
     const BlockSystem &system = discretisation.linear_system();
     before    = last.history.empty() ? system.bulk->no_history() : last.history;
     reference = size = size_before = 0.;
+    stays                          = false;
     linearised_at.reset();
     if (!norm)
       norm = std::make_unique<ScaledResidual>(system);

@@ -30,6 +30,7 @@ namespace mortise
     discretisation.linearise(
       x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
     linearised_at = x;
+    preloads.system_changed();
     if (!refresh)
       return;
     solver.update();
@@ -93,8 +94,10 @@ namespace mortise
     x.displacement += load->prescribed_at_nodes;
     for (const unsigned int i : hanging)
       x.displacement.local_element(i) = 0.;
-    last_iterations = contact->linear_iterations();
-    least_cost      = 0.; // preconditioners see each state
+    load->rhs.multiplier = linear.rhs.multiplier; // with its shortenings
+    last_iterations      = contact->linear_iterations();
+    stays                = report.converged && last_iterations == 0;
+    least_cost           = 0.; // preconditioners see each state
     if (!report.converged)
       why = "contact does not converge";
     return report;
@@ -124,7 +127,9 @@ namespace mortise
     SystemVector dx;
     SolveReport  report = along != nullptr ? solve_bordered(x, rest, dx) :
                                              solve_tangent(lifted(r, rest), dx);
-    if (report.converged && along != nullptr)
+    if (along == nullptr)
+      preloads.complete_increment(x, *load, dx, report);
+    else if (report.converged)
       set_time(x.time + dx.time);
     add_scaled(x, 1., dx);
     for (const unsigned int i : prescribed) // without rounding

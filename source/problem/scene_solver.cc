@@ -43,15 +43,17 @@ namespace mortise
     , linear_solver(
         make_linear_solver(discretisation.linear_system(),
                            solver_options(run, discretisation, cycle)))
-    , preloads(run, discretisation, *linear_solver, last.shortenings)
+    , preloads(run, discretisation, *linear_solver)
     , run(run)
   {
     if (discretisation.interfaces().have_contact())
       contact = std::make_unique<ContactStep>(
         run, discretisation, *linear_solver, preloads, last.contact);
     if (discretisation.linear_system().bulk->is_nonlinear())
-      nonlinear =
-        std::make_unique<NonlinearStep>(run, discretisation, *linear_solver);
+      nonlinear = std::make_unique<NonlinearStep>(run,
+                                                  discretisation,
+                                                  *linear_solver,
+                                                  preloads);
     // a factorisation gives one of many answers and does not tell
     if (discretisation.choice().method == SolverMethod::direct)
       discretisation.check_multipliers();
@@ -64,7 +66,7 @@ namespace mortise
   {
     SceneLoad load = discretisation.load(data);
     state.solution = discretisation.system_vector(values, load);
-    preloads.begin(data, load);
+    preloads.begin(data, state.shortenings, load);
     if (contact)
       contact->resume(load, state.solution);
     if (nonlinear)
@@ -82,7 +84,7 @@ namespace mortise
     SolvedState  result;
     State       &next   = result.state;
     SolveReport &report = result.report;
-    preloads.begin(data, load);
+    preloads.begin(data, last.shortenings, load);
     if (nonlinear)
       {
         State first;

@@ -37,13 +37,15 @@ namespace mortise
     /// References must live on.
     NonlinearStep(const RunContext &run,
                   Discretisation   &discretisation,
-                  LinearSolver     &solver);
+                  LinearSolver     &solver,
+                  Preloads         &preloads);
 
     /// Solve for @p load from @p last on and set the solution, displacement and
     /// history of @p next; those of the best iterate if the report says that
     /// Newton's method did not converge. Linear solves are as loose as the next
     /// residual allows (Eisenstat, Walker 1996). The forces of pressures on
-    /// deformed faces become part of the external ones of @p load. Collective.
+    /// deformed faces become part of the external ones of @p load, and so do
+    /// changes of the shortenings of preloads. Collective.
     /// @p data: of the time of @p load. @p contact: null, or that of the scene,
     /// without friction; each linear problem is then one of contact.
     SolveReport
@@ -150,6 +152,7 @@ namespace mortise
     const RunContext &run;
     Discretisation   &discretisation;
     LinearSolver     &solver;
+    Preloads         &preloads;
     /// Indices of owned components that are prescribed.
     std::vector<unsigned int>       prescribed, hanging;
     std::unique_ptr<ScaledResidual> norm;
@@ -167,8 +170,9 @@ namespace mortise
     std::optional<SystemVector> linearised_at; ///< of this step, or nothing yet
     double                      reference = 0.; ///< size of forces
     double       size = 0., size_before = 0.;   ///< of iterates' residuals
-    double       time_of_load    = 0.;          ///< with arc-length control
-    bool         balanced        = false; ///< the iterate, but for its distance
+    double       time_of_load = 0.;             ///< with arc-length control
+    bool         balanced     = false; ///< the iterate, but for its distance
+    bool         stays = false; ///< linear solves do not improve the iterate
     unsigned int last_iterations = 0;
     /// Iterations of linear solves per digit: of the last, and the least since
     /// preconditioners were made; 0: not yet known.

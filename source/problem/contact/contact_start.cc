@@ -97,7 +97,7 @@ namespace mortise
       ContactStep  step(run, discretisation, *solver, preloads, start);
       SceneLoad    load = discretisation.load(data);
       SystemVector x;
-      preloads.begin(data, load);
+      preloads.begin(data, {}, load);
       if (!step.solve(data, load, x).converged)
         return {};
       return {step.records(), step.n_sets()};

@@ -22,10 +22,9 @@ namespace mortise
     constexpr double flat = 0.99;
   } // namespace
 
-  Preloads::Preloads(const RunContext          &run,
-                     const Discretisation      &discretisation,
-                     LinearSolver              &solver,
-                     const std::vector<double> &shortenings)
+  Preloads::Preloads(const RunContext     &run,
+                     const Discretisation &discretisation,
+                     LinearSolver         &solver)
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
@@ -64,7 +63,7 @@ namespace mortise
                 RunLog::number(sum.norm() / number) + ")",
               "a nearly flat interface, whose normal is the direction of the force");
           indices.push_back(i);
-          values.push_back(i < shortenings.size() ? shortenings[i] : 0.);
+          values.push_back(0.);
           units.push_back({discretisation.linear_system().zero_vector(), {}});
           Vector &w = units.back().rhs.multiplier;
           add_offset(
@@ -115,10 +114,13 @@ namespace mortise
   }
 
   void
-  Preloads::begin(const SceneData &data, SceneLoad &load)
+  Preloads::begin(const SceneData           &data,
+                  const std::vector<double> &shortenings,
+                  SceneLoad                 &load)
   {
     for (unsigned int j = 0; j < indices.size(); ++j)
       {
+        values[j] = shortenings.empty() ? 0. : shortenings[indices[j]];
         forces[j] =
           data.preload(discretisation.interfaces().sides()[indices[j]]);
         load.rhs.multiplier.add(values[j], units[j].rhs.multiplier);
@@ -151,10 +153,7 @@ namespace mortise
   Preloads::solve_units(SolveReport &report)
   {
     const auto &now = discretisation.linear_system().active;
-    const bool  known =
-      have_units && (active || !now) &&
-      Utilities::MPI::max(now == active ? 0 : 1, run.comm) == 0;
-    if (known)
+    if (known && Utilities::MPI::max(now == active ? 0 : 1, run.comm) == 0)
       return;
     for (unsigned int j = 0; j < indices.size(); ++j)
       {
@@ -168,7 +167,7 @@ namespace mortise
         report.converged = report.converged && of_unit.converged;
       }
     active     = now;
-    have_units = true;
+    have_units = known = true;
   }
 
   dealii::Vector<double>
@@ -215,6 +214,38 @@ namespace mortise
     report.converged         = again.converged;
   }
 
+  double
+  Preloads::largest_force() const
+  {
+    double size = 0.;
+    for (const auto &given : forces)
+      size = std::max(size, std::fabs(given.value_or(0.)));
+    return size;
+  }
+
+  double
+  Preloads::lack(const SystemVector &x) const
+  {
+    const double size = largest_force();
+    return size == 0. ? 0. : missing(x).linfty_norm() / size;
+  }
+
+  void
+  Preloads::complete_increment(const SystemVector &x,
+                               SceneLoad          &load,
+                               SystemVector       &dx,
+                               SolveReport        &report)
+  {
+    if (indices.empty() || !report.converged)
+      return;
+    solve_units(report);
+    SystemVector next = x;
+    add_scaled(next, 1., dx);
+    const dealii::Vector<double> d = shortenings_for(missing(next));
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      shorten(j, d(j), load, &dx);
+  }
+
   SolveReport
   Preloads::solve_other_loads(const SceneLoad &load, SystemVector &x)
   {
@@ -240,13 +271,11 @@ namespace mortise
       std::all_of(values.begin(), values.end(), [](const double value) {
         return value == 0.;
       });
-    SolveReport report = goes_on ? solver.solve_from(load.rhs, x) :
-                         is_new  ? solver.solve(load.rhs, x) :
-                                   solve_other_loads(load, x);
-    double      size   = 0.;
-    for (const auto &given : forces)
-      size = std::max(size, std::fabs(given.value_or(0.)));
-    bool solves_load = goes_on || is_new; // not only about
+    SolveReport  report      = goes_on ? solver.solve_from(load.rhs, x) :
+                               is_new  ? solver.solve(load.rhs, x) :
+                                         solve_other_loads(load, x);
+    const double size        = largest_force();
+    bool         solves_load = goes_on || is_new; // not only about
     for (unsigned int k = 0; k < max_corrections && report.converged; ++k)
       {
         const dealii::Vector<double> lacks = missing(x);

@@ -64,22 +64,18 @@ namespace mortise
                       "load: their loads have no maximum");
     if (body == parameters.bodies.end())
       return;
-    const std::string got =
-      "with Law = " + body->material.law +
-      (is_finite(body->material) ? " at finite strain" : "") + " of body " +
-      body->name;
     for (const InterfaceParameters &interface : parameters.interfaces)
       {
-        const std::string section = "Interface " + interface.name;
         if (by_length && is_one_sided(interface.law))
           parameters.fail(control,
                           "arc length with Law = " + name_of(interface.law) +
                             " of interface " + interface.name,
                           "load: arc length knows no contact");
-        if (interface.preload)
-          parameters.fail(section + "/Preload",
-                          "one " + got,
-                          "none: preloads know bodies of linear laws alone");
+        if (by_length && interface.preload)
+          parameters.fail(control,
+                          "arc length with the Preload of interface " +
+                            interface.name,
+                          "load: shortenings follow from given forces");
       }
     if (!parameters.adaptivity.quantity.empty())
       check_quantity(parameters);

@@ -33,7 +33,8 @@ namespace mortise
       return {};
     const std::string where =
       parameters.where("Interface " + given.name + "/Preload");
-    return checks(Expression(*given.preload, where, time).value(Point<dim>()),
+    return factor *
+           checks(Expression(*given.preload, where, time).value(Point<dim>()),
                   Point<dim>(),
                   where + ": " + in_quotes(*given.preload));
   }

@@ -6,7 +6,7 @@
 //
 // A is the system of LinearSolver, w = int psi . n of the interface, d its
 // shortening, -w^T lambda its normal force. One solution with A per w gives the
-// Schur complement -w^T A^{-1} w of d.
+// Schur complement -w^T A^{-1} w of d. In Newton's method A is the tangent.
 #pragma once
 
 #include <mortise/problem/scene/discretisation.h>
@@ -21,12 +21,10 @@ namespace mortise
   {
   public:
     /// References must live on. Throws InputError for interfaces that are not
-    /// nearly flat. @p shortenings: initial ones by interface, or none.
-    /// Collective.
-    Preloads(const RunContext          &run,
-             const Discretisation      &discretisation,
-             LinearSolver              &solver,
-             const std::vector<double> &shortenings = {});
+    /// nearly flat. Collective.
+    Preloads(const RunContext     &run,
+             const Discretisation &discretisation,
+             LinearSolver         &solver);
 
     /// By preloaded interface, a length.
     const std::vector<double> &
@@ -65,13 +63,29 @@ namespace mortise
     void
     system_changed()
     {
-      active.reset();
+      known = false;
     }
 
-    /// Take the forces of the time of @p data, and the shortenings of the last solution into
-    /// @p load.
+    /// Take the forces of the time of @p data, and the shortenings of the last
+    /// solution, by interface or none yet, into @p load.
     void
-    begin(const SceneData &data, SceneLoad &load);
+    begin(const SceneData           &data,
+          const std::vector<double> &shortenings,
+          SceneLoad                 &load);
+
+    /// The largest force that @p x lacks, relative to the largest given one.
+    /// Collective.
+    double
+    lack(const SystemVector &x) const;
+
+    /// Change @p dx, an increment from @p x by the solver's system, so that
+    /// forces are met. The changes of shortenings become part of @p load, and
+    /// their solves of @p report. Collective.
+    void
+    complete_increment(const SystemVector &x,
+                       SceneLoad          &load,
+                       SystemVector       &dx,
+                       SolveReport        &report);
 
     /// As LinearSolver::solve(), or solve_from() if @p goes_on. The shortenings
     /// become part of @p load. There must be no free motion:
@@ -105,6 +119,8 @@ namespace mortise
     /// Add d w to @p load and its solution to @p x.
     void
     shorten(unsigned int j, double d, SceneLoad &load, SystemVector *x);
+    double
+    largest_force() const;
     /// Missing forces by preloaded interface; zero if the shortening is kept.
     dealii::Vector<double>
     missing(const SystemVector &x) const;
@@ -121,8 +137,7 @@ namespace mortise
     std::vector<double>                values;
     std::vector<std::optional<double>> forces; ///< absent: kept shortening
     std::vector<Unit>                  units;
-    /// Of the units; nothing, too, if the system has changed since then.
-    std::optional<std::vector<bool>> active;
-    bool                             have_units = false;
+    std::optional<std::vector<bool>>   active; ///< set of the units
+    bool have_units = false, known = false;    ///< and of the present system
   };
 } // namespace mortise
