@@ -201,6 +201,11 @@ namespace mortise
           faces[i].finalize();
           faces[i].payload = Utilities::pack(surface.traces.back(), false);
           surface.faces.push_back(std::move(faces[i]));
+          if (displacement)
+            {
+              surface.undeformed.push_back(face_geometry(body, known[i]));
+              surface.undeformed.back().finalize();
+            }
         }
     return surface;
   }

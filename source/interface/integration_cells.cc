@@ -1,5 +1,6 @@
 #include <mortise/interface/clipping.h>
 #include <mortise/interface/integration_cells.h>
+#include <mortise/interface/surface_evaluation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,6 +81,35 @@ namespace mortise
         array[to] = array[from];
     weight[to] = weight[from];
     gap[to]    = gap[from];
+  }
+
+
+
+  void
+  IntegrationPoints::refer_to(const SurfaceFace &undeformed,
+                              const SurfaceFace &slave)
+  {
+    FacePolynomial there, here;
+    there.reinit(undeformed, undeformed.frame.center);
+    here.reinit(slave, slave.frame.center);
+    const bool is_constant = undeformed.affine && slave.affine;
+    Lanes      ratio{};
+    for (unsigned int q = 0; q < size(); q += n_lanes)
+      {
+        const unsigned int n = std::min<unsigned int>(n_lanes, size() - q);
+        if (q == 0 || !is_constant)
+          {
+            Lanes xi[2] = {broadcast(slave.frame.center_xi),
+                           broadcast(slave.frame.center_xi)};
+            for (unsigned int i = 0; i < 2; ++i)
+              for (unsigned int l = 0; l < n; ++l)
+                xi[i][l] = slave_xi[i][q + l];
+            ratio = there.area_element(xi[0], xi[1]) /
+                    here.area_element(xi[0], xi[1]);
+          }
+        for (unsigned int l = 0; l < n; ++l)
+          weight[q + l] *= ratio[l];
+      }
   }
 
 

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 namespace mortise
 {
@@ -102,6 +103,17 @@ namespace mortise
       pair.status = PairStatus::hidden;
   }
 
+  void
+  InterfaceHandler::refer_to_undeformed(const unsigned int s,
+                                        PairResult        &pair,
+                                        IntegrationPoints &points) const
+  {
+    if (slave_surface.undeformed.empty() || pair.status != PairStatus::accepted)
+      return;
+    points.refer_to(slave_surface.undeformed[s], slave_surface.faces[s]);
+    pair.area = std::accumulate(points.weight.begin(), points.weight.end(), 0.);
+  }
+
   bool
   InterfaceHandler::visit_coinciding(const unsigned int s,
                                      const Visitor     &visitor,
@@ -110,13 +122,14 @@ namespace mortise
                                      Coverage          &coverage) const
   {
     for (const unsigned int m : candidates[s])
-      if (const auto pair =
+      if (auto pair =
             integrator.integrate_coinciding(slave_surface.faces[s],
                                             near_masters[m],
                                             slave_surface.traces[s].degree,
                                             near_traces[m].degree,
                                             points))
         {
+          refer_to_undeformed(s, *pair, points);
           coverage.add(*pair, points);
           coverage.n_candidates = candidates[s].size();
           visitor(s, m, points);
@@ -149,7 +162,9 @@ namespace mortise
         auto before = Clock::now();
         integrator.reinit(slave_surface.faces[s]);
         Coverage face;
-        face.slave_area = integrator.slave_area();
+        face.slave_area = slave_surface.undeformed.empty() ?
+                            integrator.slave_area() :
+                            face_area(slave_surface.undeformed[s]);
         // a face with the same points is the only partner
         if (visit_coinciding(s, visitor, integrator, points, face))
           ++pass.n_coinciding;
@@ -166,6 +181,7 @@ namespace mortise
                                        points);
                 if (pair.status == PairStatus::accepted)
                   drop_hidden(s, m, pair, points);
+                refer_to_undeformed(s, pair, points);
                 clipping += Clock::now() - before;
                 face.add(pair, points);
                 if (pair.status == PairStatus::accepted)

@@ -302,10 +302,7 @@ namespace mortise
             xi[1][l]  = rule.xi_2[q + l];
             weight[l] = rule.weight[q + l];
           }
-        Vec3<Lanes> x, dx[2];
-        polynomial.evaluate(xi[0], xi[1], x, dx);
-        const Vec3<Lanes> normal = cross(dx[0], dx[1]);
-        const Lanes       sum    = weight * square_root(dot(normal, normal));
+        const Lanes sum = weight * polynomial.area_element(xi[0], xi[1]);
         for (unsigned int l = 0; l < n_lanes; ++l)
           area += sum[l];
       }

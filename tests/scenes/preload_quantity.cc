@@ -114,7 +114,7 @@ namespace
     Preloads     preloads(scene.context(), discretisation, *solver);
     SceneLoad    load = scene.load;
     SystemVector x;
-    preloads.begin(scene.fields(), load);
+    preloads.begin(scene.fields(), {}, load);
     preloads.solve(false, load, x);
     const auto derivative =
       mortise::derivative(*given_quantity(scene.given()),

@@ -66,6 +66,8 @@ namespace mortise
   {
     std::vector<SurfaceFace>
       faces; ///< finalized; the payload is the packed trace
+    /// Of a displaced body the faces where they were, finalized; else empty.
+    std::vector<SurfaceFace>        undeformed;
     std::vector<FaceTrace>          traces;
     std::vector<Body::CellIterator> cells;
     std::vector<unsigned int>       face_numbers;

@@ -21,7 +21,8 @@ namespace mortise
       slave_xi; ///< reference coordinates in the slave face
     std::array<std::vector<double>, 2>
       master_eta;               ///< reference coordinates in the master face
-    std::vector<double> weight; ///< area on the true slave surface
+    std::vector<double> weight; ///< area on the true slave surface, see
+                                ///< refer_to()
     std::array<std::vector<double>, 3> slave_x; ///< position on the slave face
     std::array<std::vector<double>, 3>
                         master_x; ///< position on the master face
@@ -39,6 +40,11 @@ namespace mortise
     /// Point @p from takes the place of point @p to.
     void
     move(unsigned int from, unsigned int to);
+
+    /// Change the weights from areas of the slave face @p slave, where the
+    /// points are, to those of @p undeformed, the same face elsewhere.
+    void
+    refer_to(const SurfaceFace &undeformed, const SurfaceFace &slave);
   };
 
   /// Outcome of integrate() for a pair.

@@ -1,5 +1,7 @@
 // One interface between a slave and a master surface: searches pairs of faces,
-// clips them and passes their integration points to visitors.
+// clips them and passes their integration points to visitors. Where bodies are
+// displaced, pairs are those of the displaced surfaces, and areas and weights
+// those of the undeformed slave: multipliers are tractions per area there.
 #pragma once
 
 #include <mortise/interface/body_surface.h>
@@ -141,6 +143,11 @@ namespace mortise
                 unsigned int       m,
                 PairResult        &pair,
                 IntegrationPoints &points) const;
+    /// Change areas of slave face @p s to those of the undeformed body.
+    void
+    refer_to_undeformed(unsigned int       s,
+                        PairResult        &pair,
+                        IntegrationPoints &points) const;
     /// False where no candidate has the same points as slave face @p s.
     bool
     visit_coinciding(unsigned int       s,

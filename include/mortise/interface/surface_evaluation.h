@@ -2,6 +2,7 @@
 // points at a time.
 #pragma once
 
+#include <mortise/interface/lanes.h>
 #include <mortise/interface/reference_face.h>
 #include <mortise/interface/surface_face.h>
 
@@ -77,6 +78,16 @@ namespace mortise
              const Lanes &xi_2,
              Vec3<Lanes> &x,
              Vec3<Lanes> (&dx)[2]) const;
+
+    /// |dx/dxi_1 x dx/dxi_2|.
+    Lanes
+    area_element(const Lanes &xi_1, const Lanes &xi_2) const
+    {
+      Vec3<Lanes> x, dx[2];
+      evaluate(xi_1, xi_2, x, dx);
+      const Vec3<Lanes> normal = cross(dx[0], dx[1]);
+      return square_root(dot(normal, normal));
+    }
   };
 
   /// Polynomial of one edge of a face, see edge_coordinates().
