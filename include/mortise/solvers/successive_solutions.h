@@ -29,6 +29,12 @@ namespace mortise
       return basis.empty();
     }
 
+    void
+    clear()
+    {
+      basis.clear();
+    }
+
     /// The combination of solutions with the right hand side nearest to @p rhs.
     /// Collective.
     SystemVector

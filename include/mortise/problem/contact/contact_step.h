@@ -96,6 +96,9 @@ namespace mortise
     }
 
   private:
+    /// Signs are not known any better.
+    static constexpr double least_accuracy = 1e-10;
+
     /// The last solved step.
     struct Solved
     {
