@@ -120,7 +120,8 @@ namespace mortise
   {
     for (unsigned int j = 0; j < indices.size(); ++j)
       {
-        values[j] = shortenings.empty() ? 0. : shortenings[indices[j]];
+        values[j] =
+          indices[j] < shortenings.size() ? shortenings[indices[j]] : 0.;
         forces[j] =
           data.preload(discretisation.interfaces().sides()[indices[j]]);
         load.rhs.multiplier.add(values[j], units[j].rhs.multiplier);
