@@ -2,7 +2,8 @@
 // are those of a mesh that lies there: the same solution where one body is
 // moved along the interface as where its mesh is, the same solution and
 // tractions where all is moved or stretched together, since areas are those of
-// undeformed slaves, and what was there before where nothing moves.
+// undeformed slaves, and what was there before where nothing moves. Gaps of
+// contact are those of all displacements, wherever pairs are found.
 #include <deal.II/base/mpi.h>
 
 #include <verdict.h>
@@ -18,9 +19,13 @@ using namespace mortise::testing;
 
 namespace
 {
-  /// Two blocks of unlike meshes on each other, pressed together.
+  /// Two blocks of unlike meshes on each other, pressed together; the upper one
+  /// lies aside by @p shift and higher by @p gap.
   std::string
-  blocks(const std::string &law, const bool tetrahedra, const double shift)
+  blocks(const std::string &law,
+         const bool         tetrahedra,
+         const double       shift,
+         const double       gap = 0.)
   {
     const auto block = [&](const std::string &name,
                            const std::string &extent,
@@ -32,8 +37,9 @@ namespace
              extent + "\n    set Subdivisions = " + cells +
              (tetrahedra ? "\n    set Cells = tetrahedra" : "") +
              "\n    set Translate = " +
-             (name == "upper" ? number(shift) : "0") +
-             ", 0, 0\n  end\n  subsection Material\n    set Young modulus = 10\n"
+             (name == "upper" ? number(shift) + ", 0, " + number(gap) :
+                                "0, 0, 0") +
+             "\n  end\n  subsection Material\n    set Young modulus = 10\n"
              "  end\n" +
              boundary + "end\n";
     };
@@ -148,6 +154,66 @@ namespace
             difference(solve(scene, *solver), first),
             1e-9);
   }
+
+  double
+  largest(const std::vector<double> &values, const MPI_Comm comm)
+  {
+    double result = 0.;
+    for (const double value : values)
+      result = std::max(result, std::fabs(value));
+    return Utilities::MPI::max(result, comm);
+  }
+
+  void
+  check_gaps(const bool tetrahedra)
+  {
+    constexpr double  gap  = 0.1;
+    const MPI_Comm    comm = MPI_COMM_WORLD;
+    EquationsOfScene  scene(blocks("contact", tetrahedra, 0., gap), {}, comm);
+    const std::string of =
+      std::string("gaps, ") + (tetrahedra ? "tetrahedra" : "hexahedra");
+    Discretisation &discretisation = scene.discretisation;
+    const auto      gaps_of        = [&](const Field &field) {
+      const SceneLoad load = discretisation.load(scene.fields());
+      return discretisation.gaps(discretisation.weighted_gaps(
+        load,
+        discretisation.system_vector(moved(discretisation.bodies(), field),
+                                     load)));
+    };
+    const auto difference_to = [&](std::vector<double>        values,
+                                   const std::vector<double> &others) {
+      for (unsigned int i = 0; i < values.size(); ++i)
+        values[i] -= others[i];
+      return largest(values, comm);
+    };
+    const Field any = [](const unsigned int body, const Point<dim> &x) {
+      return Tensor<1, dim>({0.1 * x[0] - 0.3 * x[1],
+                             0.2 * x[2],
+                             (body == 1 ? 0.07 : 0.02) * x[0] - 0.05 * x[1]});
+    };
+    const std::vector<double> first = gaps_of(any);
+    discretisation.pair(
+      moved(discretisation.bodies(),
+            [&](const unsigned int body, const Point<dim> &) {
+              return Tensor<1, dim>({0., 0., body == 1 ? -0.6 * gap : 0.});
+            }));
+    verdict(of + ": paired where the upper block has come down",
+            difference_to(gaps_of(any), first),
+            1e-12);
+
+    const double angle = 0.7;
+    const Field  turn  = [&](const unsigned int, const Point<dim> &x) {
+      return Tensor<1, dim>(
+        {5.,
+         std::cos(angle) * x[1] - std::sin(angle) * x[2] - x[1],
+         std::sin(angle) * x[1] + std::cos(angle) * x[2] - x[2] - 3.});
+    };
+    discretisation.pair(moved(discretisation.bodies(), turn));
+    const std::vector<double> turned = gaps_of(turn);
+    verdict(of + ": those of the start where both have turned together",
+            difference_to(turned, std::vector<double>(turned.size(), gap)),
+            1e-12);
+  }
 } // namespace
 
 int
@@ -159,6 +225,8 @@ main(int argc, char *argv[])
       check(law, tetrahedra, "condensed");
   for (const std::string method : {"saddle point", "direct"})
     check("slide", false, method);
+  for (const bool tetrahedra : {false, true})
+    check_gaps(tetrahedra);
   check("tie",
         false,
         "saddle point",

@@ -196,12 +196,7 @@ namespace mortise
       if (const auto offset = data.offset(pairing->sides()[i]);
           offset && load.rhs.multiplier.size() > 0)
         add_offset(pairing->all()[i], offset, load.rhs.multiplier);
-    for (const Coupling &coupling : pairing->all())
-      if (coupling.law.has_mesh_gap)
-        for (const ContactNode &node : coupling.contact_nodes)
-          for (unsigned int r = 0; r < node.n_multipliers; ++r)
-            load.rhs.multiplier.begin()[node.multipliers[r]] +=
-              node.areas[r] * node.gap * node.normal[r];
+    add_mesh_gaps(load.rhs.multiplier);
     for (const FreePressure &free : free_pressures)
       {
         if (const double flux = free.enclosure.flux(load.rhs); flux > 0.01)

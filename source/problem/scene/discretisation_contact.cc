@@ -59,6 +59,37 @@ namespace mortise
     system.bulk->update_penalties(pairing->all());
   }
 
+  void
+  Discretisation::pair(const std::vector<BodySolution> &displaced)
+  {
+    set_pairing(std::make_unique<Pairing>(run, spaces, &displaced));
+    paired_at =
+      system.bulk->values_at_nodes([&](const auto body, const auto dof) {
+        return displaced[body].displacement(dof);
+      });
+  }
+
+  void
+  Discretisation::add_mesh_gaps(Vector &rhs) const
+  {
+    Vector closed; // by the displacements of the pairing
+    if (paired_at.size() > 0 && rhs.size() > 0)
+      {
+        closed = rhs;
+        system.constraint.vmult_free(closed, paired_at);
+      }
+    for (const Coupling &coupling : pairing->all())
+      if (coupling.law.has_mesh_gap)
+        for (const ContactNode &node : coupling.contact_nodes)
+          for (unsigned int r = 0; r < node.n_multipliers; ++r)
+            {
+              const unsigned int m = node.multipliers[r];
+              rhs.begin()[m] += node.areas[r] * node.gap * node.normal[r];
+              if (closed.size() > 0)
+                rhs.begin()[m] += closed.begin()[m];
+            }
+  }
+
   Vector
   Discretisation::weighted_gaps(const SceneLoad    &load,
                                 const SystemVector &x) const

@@ -171,14 +171,12 @@ namespace mortise
     }
 
     /// Replace the pairing by that of the configuration displaced by the
-    /// solutions @p displaced, by body; the bulk is kept.
+    /// solutions @p displaced, by body; the bulk is kept. Gaps of contact are
+    /// then linear in displacements about that configuration.
     /// LinearSolver::update_interfaces() must follow. Collective; throws
     /// InputError as Pairing.
     void
-    pair(const std::vector<BodySolution> &displaced)
-    {
-      set_pairing(std::make_unique<Pairing>(run, spaces, &displaced));
-    }
+    pair(const std::vector<BodySolution> &displaced);
 
   private:
     /// A constant pressure of enclosed incompressible bodies.
@@ -198,6 +196,10 @@ namespace mortise
     lift(SceneLoad &load) const;
     void
     find_free_pressures();
+    /// Add the weighted gaps of contact without displacements to @p rhs, whose
+    /// multipliers they belong to. Collective.
+    void
+    add_mesh_gaps(Vector &rhs) const;
     /// Prescribed displacements in the numbering of the scene, others zero.
     Vector
     prescribed_vector(const SceneLoad &load) const;
@@ -205,6 +207,7 @@ namespace mortise
     const RunContext             &run;
     SceneSpaces                   spaces;
     std::unique_ptr<Pairing>      pairing;
+    Vector                        paired_at; ///< at nodes; empty: undeformed
     BlockSystem                   system;
     std::vector<FreePressure>     free_pressures;
     std::vector<double>           volumes; ///< by body
