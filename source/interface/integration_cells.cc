@@ -92,23 +92,25 @@ namespace mortise
     FacePolynomial there, here;
     there.reinit(undeformed, undeformed.frame.center);
     here.reinit(slave, slave.frame.center);
-    const bool is_constant = undeformed.affine && slave.affine;
-    Lanes      ratio{};
+    for (auto &array : undeformed_x)
+      array.resize(size());
     for (unsigned int q = 0; q < size(); q += n_lanes)
       {
-        const unsigned int n = std::min<unsigned int>(n_lanes, size() - q);
-        if (q == 0 || !is_constant)
-          {
-            Lanes xi[2] = {broadcast(slave.frame.center_xi),
-                           broadcast(slave.frame.center_xi)};
-            for (unsigned int i = 0; i < 2; ++i)
-              for (unsigned int l = 0; l < n; ++l)
-                xi[i][l] = slave_xi[i][q + l];
-            ratio = there.area_element(xi[0], xi[1]) /
-                    here.area_element(xi[0], xi[1]);
-          }
+        const unsigned int n     = std::min<unsigned int>(n_lanes, size() - q);
+        Lanes              xi[2] = {broadcast(slave.frame.center_xi),
+                                    broadcast(slave.frame.center_xi)};
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int l = 0; l < n; ++l)
+            xi[i][l] = slave_xi[i][q + l];
+        Vec3<Lanes> x;
+        const Lanes ratio =
+          there.area_element(xi[0], xi[1], x) / here.area_element(xi[0], xi[1]);
         for (unsigned int l = 0; l < n; ++l)
-          weight[q + l] *= ratio[l];
+          {
+            weight[q + l] *= ratio[l];
+            for (unsigned int d = 0; d < 3; ++d)
+              undeformed_x[d][q + l] = undeformed.frame.center[d] + x[d][l];
+          }
       }
   }
 

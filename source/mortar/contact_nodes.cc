@@ -248,14 +248,14 @@ namespace mortise
                         by_component ? normal * direction : w * own * along;
                       sums[pressed_sum](index) +=
                         by_component ? presses * direction : w * own * along;
-                      const auto about_origin =
+                      const Tensor<1, dim> &place = local.places()[i];
+                      const auto            about_origin =
                         cross_product_3d(local.position_moment[i], direction);
                       for (unsigned int c = 0; c < dim; ++c)
                         {
                           sums[force_sum + c](index) += w * own * direction[c];
                           sums[moment_sum + c](index) += w * about_origin[c];
-                          sums[place_sum + c](index) +=
-                            w * along * local.position_moment[i][c];
+                          sums[place_sum + c](index) += w * along * place[c];
                           sums[pressure_force_sum + c](index) += presses[c];
                           sums[kinematic_sum + c](index) += normal[c];
                         }

@@ -330,8 +330,9 @@ namespace mortise
           const auto nodes = face_nodes(trace.shape, trace.degree);
           std::vector<Tensor<1, dim>> values;
           for (unsigned int k = 0; k < n; ++k)
-            values.push_back(offset(face_point(slave.faces[s], nodes[k])) *
-                             coupling.frames[s][k][0]);
+            values.push_back(
+              offset(face_point(slave.undeformed_face(s), nodes[k])) *
+              coupling.frames[s][k][0]);
           for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
             {
               double along = 0.;

@@ -48,9 +48,9 @@ namespace mortise
     const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]),
       eta(points.master_eta[0][q], points.master_eta[1][q]);
     InterfacePoint result;
+    result.position = points.place(q);
     for (unsigned int c = 0; c < dim; ++c)
       {
-        result.position[c] = points.slave_x[c][q];
         result.mesh_gap[c] = points.master_x[c][q] - points.slave_x[c][q];
       }
     result.normal = face_normal(interface.slave().faces[slave], xi);

@@ -190,10 +190,12 @@ namespace mortise
           partner.constraint.reinit(n, partner.mixed.n());
           local.multiplier.mmult(partner.constraint, partner.mixed);
         }
-      for (auto *moments : {&local.gap_moment, &local.position_moment})
+      for (auto *moments : {&local.gap_moment,
+                            &local.position_moment,
+                            &local.undeformed_moment})
         {
           const std::vector<Tensor<1, dim>> of_functions = *moments;
-          for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int i = 0; i < moments->size(); ++i)
             {
               (*moments)[i] = Tensor<1, dim>();
               for (unsigned int j = 0; j < n; ++j)
@@ -319,6 +321,8 @@ namespace mortise
       if (are_unlike(frames[s]))
         turning[s] = in_functions(frames[s], interface.slave().traces[s]);
     FullMatrix<double> slave_values, master_values, weighted, positions, moment;
+    const bool         is_displaced = !interface.slave().undeformed.empty();
+    const unsigned int n_vectors    = is_displaced ? 3 : 2;
 
     interface.integrate_pairs([&](const unsigned int       s,
                                   const unsigned int       m,
@@ -334,6 +338,8 @@ namespace mortise
           local.mass.reinit(n_slave, n_slave);
           local.gap_moment.resize(n_slave);
           local.position_moment.resize(n_slave);
+          if (is_displaced)
+            local.undeformed_moment.resize(n_slave);
           for (auto &moments : normal_moments[s])
             moments.reinit(n_slave, n_slave);
         }
@@ -341,7 +347,7 @@ namespace mortise
       partner.mixed.reinit(n_slave, master.n_functions());
       if (with_master_mass)
         partner.mass.reinit(master.n_functions(), master.n_functions());
-      moment.reinit(n_slave, 2 * dim);
+      moment.reinit(n_slave, n_vectors * dim);
       for (unsigned int first = 0; first < points.size(); first += max_points)
         {
           const unsigned int n =
@@ -356,13 +362,15 @@ namespace mortise
                                weighted,
                                normal_moments[s]);
           weighted.Tmmult(partner.mixed, master_values, true);
-          positions.reinit(n, 2 * dim, true);
+          positions.reinit(n, n_vectors * dim, true);
           for (unsigned int q = 0; q < n; ++q)
             for (unsigned int c = 0; c < dim; ++c)
               {
                 positions(q, c) =
                   points.master_x[c][first + q] - points.slave_x[c][first + q];
                 positions(q, dim + c) = points.slave_x[c][first + q];
+                if (is_displaced)
+                  positions(q, 2 * dim + c) = points.undeformed_x[c][first + q];
               }
           weighted.Tmmult(moment, positions, true);
           if (with_master_mass)
@@ -376,6 +384,8 @@ namespace mortise
           {
             local.gap_moment[i][c] += moment(i, c);
             local.position_moment[i][c] += moment(i, dim + c);
+            if (is_displaced)
+              local.undeformed_moment[i][c] += moment(i, 2 * dim + c);
           }
       local.partners.push_back(std::move(partner));
     });

@@ -72,6 +72,13 @@ namespace mortise
     std::vector<Body::CellIterator> cells;
     std::vector<unsigned int>       face_numbers;
     std::vector<BoundaryFace>       known; ///< of ghost cells, too
+    /// Face @p s in its body.
+    const SurfaceFace &
+    undeformed_face(const unsigned int s) const
+    {
+      return undeformed.empty() ? faces[s] : undeformed[s];
+    }
+
     /// Unit vector that takes the place of the normal, for supports.
     std::optional<dealii::Tensor<1, dim>> direction;
   };

@@ -27,6 +27,8 @@ namespace mortise
     std::array<std::vector<double>, 3>
                         master_x; ///< position on the master face
     std::vector<double> gap;      ///< along the unit normal; positive: open
+    /// Where the slave face was; empty before refer_to().
+    std::array<std::vector<double>, 3> undeformed_x;
 
     unsigned int
     size() const
@@ -41,8 +43,18 @@ namespace mortise
     void
     move(unsigned int from, unsigned int to);
 
-    /// Change the weights from areas of the slave face @p slave, where the
-    /// points are, to those of @p undeformed, the same face elsewhere.
+    /// The point of the slave in its body, by which expressions and nodes are
+    /// known.
+    dealii::Point<3>
+    place(const unsigned int q) const
+    {
+      const auto &x = undeformed_x[0].empty() ? slave_x : undeformed_x;
+      return dealii::Point<3>(x[0][q], x[1][q], x[2][q]);
+    }
+
+    /// Set the undeformed places, and change the weights from areas of the
+    /// slave face @p slave, where the points are, to those of @p undeformed,
+    /// the same face there.
     void
     refer_to(const SurfaceFace &undeformed, const SurfaceFace &slave);
   };

@@ -79,14 +79,21 @@ namespace mortise
              Vec3<Lanes> &x,
              Vec3<Lanes> (&dx)[2]) const;
 
-    /// |dx/dxi_1 x dx/dxi_2|.
+    /// |dx/dxi_1 x dx/dxi_2|, and the position.
     Lanes
-    area_element(const Lanes &xi_1, const Lanes &xi_2) const
+    area_element(const Lanes &xi_1, const Lanes &xi_2, Vec3<Lanes> &x) const
     {
-      Vec3<Lanes> x, dx[2];
+      Vec3<Lanes> dx[2];
       evaluate(xi_1, xi_2, x, dx);
       const Vec3<Lanes> normal = cross(dx[0], dx[1]);
       return square_root(dot(normal, normal));
+    }
+
+    Lanes
+    area_element(const Lanes &xi_1, const Lanes &xi_2) const
+    {
+      Vec3<Lanes> x;
+      return area_element(xi_1, xi_2, x);
     }
   };
 

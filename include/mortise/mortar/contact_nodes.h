@@ -40,7 +40,7 @@ namespace mortise
     /// prescribed there has the share of the rim in addition.
     double                  area = 0.;
     std::array<double, dim> areas{};
-    dealii::Point<dim>      position; ///< int psi x / area
+    dealii::Point<dim>      position; ///< in the body: int psi X / area
     /// By multiplier, of its direction d: int psi d, and int psi x cross d
     /// about the origin.
     std::array<dealii::Tensor<1, dim>, dim> forces, moments;

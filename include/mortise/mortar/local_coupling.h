@@ -51,6 +51,8 @@ namespace mortise
     std::vector<dealii::Tensor<1, dim>>
       gap_moment; ///< int psi_i (x_master - x_slave)
     std::vector<dealii::Tensor<1, dim>> position_moment; ///< int psi_i x_slave
+    /// The same where the slave was; empty where it is not displaced.
+    std::vector<dealii::Tensor<1, dim>> undeformed_moment;
     std::vector<Partner>                partners;
     std::vector<InterfaceStiffness>     springs; ///< by node; empty: a tie
     /// Standard multipliers along a normal that turns: entry k n + i is the
@@ -65,6 +67,13 @@ namespace mortise
     /// Fractions of the multipliers that hold along the normal and
     /// tangentially, see select_nodes().
     double active_fraction = 1., sticking_fraction = 1.;
+
+    /// int psi_i X, X the place in the body.
+    const std::vector<dealii::Tensor<1, dim>> &
+    places() const
+    {
+      return undeformed_moment.empty() ? position_moment : undeformed_moment;
+    }
 
     bool
     is_dual() const
