@@ -201,13 +201,21 @@ namespace mortise
           faces[i].finalize();
           faces[i].payload = Utilities::pack(surface.traces.back(), false);
           surface.faces.push_back(std::move(faces[i]));
-          if (displacement)
-            {
-              surface.undeformed.push_back(face_geometry(body, known[i]));
-              surface.undeformed.back().finalize();
-            }
         }
     return surface;
+  }
+
+  std::vector<SurfaceFace>
+  undeformed_faces(const Body &body, const BodySurface &surface)
+  {
+    std::vector<SurfaceFace> result;
+    for (unsigned int s = 0; s < surface.faces.size(); ++s)
+      {
+        result.push_back(
+          face_geometry(body, {surface.cells[s], surface.face_numbers[s]}));
+        result.back().finalize();
+      }
+    return result;
   }
 
   BodySurface

@@ -412,12 +412,17 @@ class Scene:
         return u, lam, history
 
 
+def arc(s, t):
+    """A block of height 0.7 with a round lower side of radius 1.2."""
+    x = 1.2 * (s - 0.5)
+    return x, (1.2 - math.sqrt(1.44 - x**2)) * (1 - t) + 0.7 * t
+
+
 def press(o):
     """An arc is pressed on a block in four steps: iterations of each, last contraction, pmax / E*."""
     def run(p, n, ratio, tangent, form, depth, steps=4):
-        R = 1.2
         lower = Block(p, 2 * n, n, lambda s, t: (2.4 * (s - 0.5), t - 1), 1., 0.3)
-        upper = Block(p, n + n // 2, n // 2, lambda s, t: (1.2 * (s - 0.5), (R - math.sqrt(R * R - (1.2 * (s - 0.5))**2)) * (1 - t) + 0.7 * t), ratio, 0.3)
+        upper = Block(p, n + n // 2, n // 2, arc, ratio, 0.3)
         scene = Scene(lower, upper, form)
         top, bottom = upper.grid[-1] + scene.offset, lower.grid[0]
         T = motions(scene, [], np.concatenate([top, bottom]))
@@ -496,8 +501,7 @@ def slide(o):
             given[2 * top] = 5.03 * k / steps
             given[2 * top + 1] = -0.1
             if k:
-                for node in upper.grid.ravel() + scene.offset:
-                    u[2 * node] += 5.03 / steps
+                u[2 * (upper.grid.ravel() + scene.offset)] += 5.03 / steps
             u, lam, h = scene.solve(u, lam, T, given, o.tangents[0])
             counts.append(len(h) - 1 if h[-1] < 1e-10 else "-")
             z = (scene.X.ravel() + u)[scene.dofs]
@@ -515,8 +519,7 @@ def ripple(o):
         for depth in o.depths:
             n = o.n
             lower = Block(p, 10 * n // 2, n, lambda s, t: (4 * (s - 0.5), t - 1), 1., 0.3)
-            R = 1.2
-            upper = Block(p, 7 * n // 8, n // 2, lambda s, t: (1.2 * (s - 0.5), (R - math.sqrt(R * R - (1.2 * (s - 0.5))**2)) * (1 - t) + 0.7 * t), 1., 0.3)
+            upper = Block(p, 7 * n // 8, n // 2, arc, 1., 0.3)
             scene = Scene(lower, upper, o.form, 4.)
             top, bottom = upper.grid[-1] + scene.offset, lower.grid[0]
             T = motions(scene, [(lower, 0)], np.concatenate([top, bottom]))
@@ -529,8 +532,7 @@ def ripple(o):
                 move = face * 0.1234 if k > 0 else 0.
                 given[2 * top] = max(k, 0) * face * 0.1234
                 if k > 0:
-                    for node in upper.grid.ravel() + scene.offset:
-                        u[2 * node] += move
+                    u[2 * (upper.grid.ravel() + scene.offset)] += move
                 u, lam, h = scene.solve(u, lam, T, given, o.tangents[0])
                 counts.append(len(h) - 1 if h[-1] < 1e-10 else "-")
                 if k >= 0:
@@ -558,8 +560,7 @@ def edge(o):
             given[2 * top + 1] = -0.04 * (k + 2) / 2 if k < 1 else -0.04
             given[2 * top] = max(k, 0) * face * 0.0731
             if k > 0:
-                for node in upper.grid.ravel() + scene.offset:
-                    u[2 * node] += face * 0.0731
+                u[2 * (upper.grid.ravel() + scene.offset)] += face * 0.0731
             u, lam, h = scene.solve(u, lam, T, given, o.tangents[0])
             counts.append(len(h) - 1 if h[-1] < 1e-10 else "-")
             if h[-1] >= 1e-10:

@@ -92,6 +92,8 @@ expect 2 'where nothing that acts depends on t' "$prm/balloon.prm" "${steps[@]}"
   --set 'Body inner/Boundary inside/Pressure=0.1'
 expect 2 'Quantity.*with Law = J2 plasticity of body lower' "$scene" --set "${material}Law=J2 plasticity" --set "${material}Yield stress=1" \
   --set 'Adaptivity/Target error=0.1' --set 'Adaptivity/Quantity=p, z' --set 'Output/Points=p: lower: 0.5, 0.5, 0'
+expect 2 'Control.*arc length with the Preload of interface glue' "$scene" "${steps[@]}" --set "${material}Law=neo-Hookean" \
+  --set 'Interface glue/Preload=1'
 expect 2 'Control.*arc length with Adaptivity/Target error' "$prm/balloon.prm" "${steps[@]}" --set 'Adaptivity/Target error=0.1'
 expect 2 'in mixed form with Poisson ratio 0.49' "$scene" --set "${material}Law=neo-Hookean" --set "${material}Poisson ratio=0.49" \
   --set 'Body lower/Degree=2' --set 'Exact solution/Displacement=x*y; 0; 0'

@@ -66,21 +66,21 @@ namespace mortise
   {
     std::vector<SurfaceFace>
       faces; ///< finalized; the payload is the packed trace
-    /// Of a displaced body the faces where they were, finalized; else empty.
+    /// Of a displaced slave the faces where they were, finalized; else empty.
     std::vector<SurfaceFace>        undeformed;
     std::vector<FaceTrace>          traces;
     std::vector<Body::CellIterator> cells;
     std::vector<unsigned int>       face_numbers;
     std::vector<BoundaryFace>       known; ///< of ghost cells, too
+    /// Unit vector that takes the place of the normal, for supports.
+    std::optional<dealii::Tensor<1, dim>> direction;
+
     /// Face @p s in its body.
     const SurfaceFace &
     undeformed_face(const unsigned int s) const
     {
       return undeformed.empty() ? faces[s] : undeformed[s];
     }
-
-    /// Unit vector that takes the place of the normal, for supports.
-    std::optional<dealii::Tensor<1, dim>> direction;
   };
 
   /// The displacement u of a body by dof, with ghost values, of the
@@ -115,6 +115,10 @@ namespace mortise
                   const dealii::AffineConstraints<double> &constraints,
                   const NodalSpaces                       &levels = {},
                   Displacement displacement                       = nullptr);
+
+  /// BodySurface::undeformed of @p surface, whose body is displaced.
+  std::vector<SurfaceFace>
+  undeformed_faces(const Body &body, const BodySurface &surface);
 
   /// A rigid surface that coincides with @p surface and faces it; its traces
   /// have no columns.

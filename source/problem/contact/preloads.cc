@@ -189,10 +189,7 @@ namespace mortise
   void
   Preloads::release(SystemVector &rhs, SystemVector &z, SolveReport &report)
   {
-    if (!report.converged ||
-        std::none_of(forces.begin(), forces.end(), [](const auto &given) {
-          return given.has_value();
-        }))
+    if (!report.converged || !has_force())
       return;
     solve_units(report);
     if (!report.converged)
@@ -213,6 +210,14 @@ namespace mortise
     report.relative_residual = again.relative_residual;
     report.attainable        = again.attainable;
     report.converged         = again.converged;
+  }
+
+  bool
+  Preloads::has_force() const
+  {
+    return std::any_of(forces.begin(), forces.end(), [](const auto &given) {
+      return given.has_value();
+    });
   }
 
   double
@@ -237,7 +242,7 @@ namespace mortise
                                SystemVector       &dx,
                                SolveReport        &report)
   {
-    if (indices.empty() || !report.converged)
+    if (!report.converged || !has_force())
       return;
     solve_units(report);
     SystemVector next = x;

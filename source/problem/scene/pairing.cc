@@ -92,6 +92,9 @@ namespace mortise
     BodySurface master_surface =
       given.is_support ? rigid_obstacle(slave_surface) :
                          surface(given.master, faces_of(given, given.master));
+    if (displaced)
+      slave_surface.undeformed =
+        undeformed_faces(*spaces.bodies[given.slave.body], slave_surface);
     InterfaceOptions options;
     options.distance             = given.search_distance;
     options.points_per_direction = given.quadrature_points;

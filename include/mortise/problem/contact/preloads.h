@@ -119,6 +119,9 @@ namespace mortise
     /// Add d w to @p load and its solution to @p x.
     void
     shorten(unsigned int j, double d, SceneLoad &load, SystemVector *x);
+    /// Is a force given, and not all shortenings kept?
+    bool
+    has_force() const;
     double
     largest_force() const;
     /// Missing forces by preloaded interface; zero if the shortening is kept.
