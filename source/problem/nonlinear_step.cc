@@ -53,6 +53,10 @@ namespace mortise
     , discretisation(discretisation)
     , solver(solver)
     , preloads(preloads)
+    , may_yield(
+        std::any_of(discretisation.bodies().begin(),
+                    discretisation.bodies().end(),
+                    [](const auto &body) { return has_history(*body); }))
   {
     const MultigridLevel &level =
       discretisation.linear_system().bulk->levels().front();
@@ -258,8 +262,9 @@ namespace mortise
         const double there = residual(ahead);
         if (there < smallest)
           {
-            x        = ahead;
-            smallest = there;
+            x             = ahead;
+            smallest      = there;
+            at_last_state = false;
           }
       }
   }
@@ -271,6 +276,7 @@ namespace mortise
     before    = last.history.empty() ? system.bulk->no_history() : last.history;
     reference = size = size_before = 0.;
     stays                          = false;
+    at_last_state                  = true;
     linearised_at.reset();
     if (!norm)
       norm = std::make_unique<ScaledResidual>(system);

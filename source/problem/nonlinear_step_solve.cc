@@ -25,14 +25,17 @@ namespace mortise
   void
   NonlinearStep::linearise(const SystemVector &x)
   {
+    const bool elastic = size_before == 0. && at_last_state;
     const bool refresh = least_cost == 0. || !solver.is_ready() ||
-                         last_cost > largest_cost * least_cost;
+                         last_cost > largest_cost * least_cost ||
+                         (elastic && shows_flow);
     discretisation.linearise(
       x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
     linearised_at = x;
     preloads.system_changed();
     if (!refresh)
       return;
+    shows_flow = !elastic && may_yield;
     solver.update();
     if (!solver.is_ready())
       {
@@ -113,11 +116,6 @@ namespace mortise
     eta = std::min(eta, loosest_solve);
     // what a loose solve leaves of a large motion would yield; and an elastic
     // step then takes one solve, as a linear one does
-    const Bodies &bodies = discretisation.bodies();
-    const bool    may_yield =
-      std::any_of(bodies.begin(), bodies.end(), [](const auto &body) {
-        return has_history(*body);
-      });
     if (size_before == 0. && may_yield)
       eta = run.parameters.solver.tolerance;
     size_before = size;

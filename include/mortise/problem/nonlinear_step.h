@@ -153,6 +153,7 @@ namespace mortise
     Discretisation   &discretisation;
     LinearSolver     &solver;
     Preloads         &preloads;
+    const bool        may_yield; ///< one of the bodies
     /// Indices of owned components that are prescribed.
     std::vector<unsigned int>       prescribed, hanging;
     std::unique_ptr<ScaledResidual> norm;
@@ -176,7 +177,10 @@ namespace mortise
     unsigned int last_iterations = 0;
     /// Iterations of linear solves per digit: of the last, and the least since
     /// preconditioners were made; 0: not yet known.
-    double       last_cost = 0., least_cost = 0.;
+    double last_cost = 0., least_cost = 0.;
+    /// The step starts from the last state, at which tangents are elastic.
+    bool         at_last_state = true;
+    bool         shows_flow    = false; ///< preconditioners, not elastic ones
     NewtonReport newton;
     std::string  why;
   };

@@ -3,6 +3,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <Teuchos_BLAS.hpp>
 #include <mortise/material/nonlinear_law.h>
 #include <mortise/operators/cells/cell_histories.h>
 #include <mortise/operators/matrix_free/cell_batches.h>
@@ -101,12 +102,22 @@ namespace mortise
     if (found == by_element.end())
       found = by_element.emplace(element, projection(element)).first;
     const FullMatrix<double> &matrix = found->second;
-    const unsigned int        n      = history.size() / matrix.n();
-    std::vector<double>       result(matrix.m() * n, 0.);
-    for (unsigned int i = 0; i < matrix.m(); ++i)
-      for (unsigned int q = 0; q < matrix.n(); ++q)
-        for (unsigned int k = 0; k < n; ++k)
-          result[i * n + k] += matrix(i, q) * history[q * n + k];
+    const int                 n_here = matrix.m(), n_there = matrix.n();
+    const int                 n = history.size() / n_there;
+    std::vector<double>       result(n_here * n);
+    Teuchos::BLAS<int, double>().GEMM(Teuchos::NO_TRANS,
+                                      Teuchos::NO_TRANS,
+                                      n,
+                                      n_here,
+                                      n_there,
+                                      1.,
+                                      history.data(),
+                                      n,
+                                      &matrix(0, 0),
+                                      n_there,
+                                      0.,
+                                      result.data(),
+                                      n);
     return result;
   }
 } // namespace mortise
