@@ -4,7 +4,7 @@
 Bodies of all generators with meshes, degrees, strategies, materials, boundary conditions and exact fields that are drawn; the exact
 solution tells the error of a run that says that its target is met. Prints runs whose error is above the target, and the seconds of
 the processor beside those of another binary on the same starts. --write FILE: starts, one a line, as tests/scenes/adaptivity_starts
-reads them."""
+reads them. --nonlinear: those of nonlinear_starts.py."""
 import argparse
 import concurrent.futures
 import json
@@ -240,17 +240,21 @@ def point_in(lot, settings):
 
 def value_at(expression, point):
     names = {name: getattr(math, name) for name in ("sin", "cos", "exp", "tanh", "sqrt", "atan2", "pi")}
-    return eval(expression.replace("^", "**"), {**names, **dict(zip("xyz", point))})
+    return eval(expression.replace("^", "**") if isinstance(expression, str) else expression, {**names, **dict(zip("xyz", point))})
 
 
-def start(seed, number, quantity=False):
+def start(seed, number, quantity=False, nonlinear=False):
     """Name, settings and, with a quantity, its exact value of one start; its target is drawn as a part of its first error."""
     lot = random.Random(f"{seed} {number}")
-    name, (field, components), settings = lot.choice(GENERATORS)(lot)
+    if nonlinear:
+        from nonlinear_starts import GENERATORS as generators  # which takes bodies and fields from here
+    else:
+        generators = GENERATORS
+    name, (field, components), settings = lot.choice(generators)(lot)
     if components is None:
         settings.append(f"Exact solution/Displacement={field}")
     else:
-        scale = 1. if name == "fichera" else 10. ** lot.uniform(-3., 0.)
+        scale = 1. if nonlinear or name == "fichera" else 10. ** lot.uniform(-3., 0.)
         settings.append("Exact solution/Displacement=" + "; ".join(f"{amount(scale)}*({c})" for c in components))
     strategy = lot.choice(["hp", "hp", "hp", "h", "p"])
     settings += [f"Adaptivity/Strategy={strategy}", "Output/Fields="]
@@ -309,8 +313,8 @@ def cycles(summary, exact):
 
 
 def measure(arguments):
-    binaries, seed, number, unknowns, idle, quantity = arguments
-    name, settings, part, exact = start(seed, number, quantity)
+    binaries, seed, number, unknowns, idle, quantity, nonlinear = arguments
+    name, settings, part, exact = start(seed, number, quantity, nonlinear)
     if quantity and exact is None:
         return {"name": name, "skipped": "no exact value, or one of nearly zero"}
     settings.append(f"Adaptivity/Largest number of unknowns={unknowns}")
@@ -375,6 +379,7 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--unknowns", type=int, default=20000, help="the largest number in a run")
     parser.add_argument("--quantity", action="store_true", help="targets are those of a displacement at a point")
+    parser.add_argument("--nonlinear", action="store_true", help="starts of nonlinear_starts.py")
     parser.add_argument("--only", help="numbers of starts, separated by commas")
     parser.add_argument("--json", help="a file for all that was measured")
     parser.add_argument("--write", help="a file for the starts whose targets were met soon")
@@ -385,7 +390,7 @@ def main():
     numbers = [int(n) for n in given.only.split(",")] if given.only else range(given.first, given.first + given.number)
     results = []
     with concurrent.futures.ProcessPoolExecutor(given.jobs) as pool:
-        for result in pool.map(measure, [(binaries, given.seed, n, given.unknowns, idle, given.quantity) for n in numbers]):
+        for result in pool.map(measure, [(binaries, given.seed, n, given.unknowns, idle, given.quantity, given.nonlinear) for n in numbers]):
             results.append(result)
             for one in result.get("runs", []):
                 if one["code"] not in (0, 3):

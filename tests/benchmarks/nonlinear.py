@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """nonlinear.py BENCHMARK_NONLINEAR MORTISE: write the tables of doc/measurements/nonlinear.md that stand below its
-mark: products with tangents beside Hooke's, Newton's method on the scenes of prm/ with nonlinear laws, and errors of the balloon of
-tests/field/balloon_to_a_target.prm."""
+mark: products with tangents beside Hooke's, Newton's method on the scenes of prm/ with nonlinear laws, steps of plasticity beside linear
+solves, and errors of the balloon of tests/field/balloon_to_a_target.prm."""
 import json
 import math
 import os
+import re
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -90,6 +92,40 @@ def scenes(program):
     return rows
 
 
+FLOW = """`autofrettage` beside the same bodies with a linear law. Seconds of the processor are those of all that a step does; the first one has the
+first set-up of the solver, as a linear scene has. Its first yield is at t = 0.53, and from t = 1 on it is unloaded. Medians of 5 runs."""
+
+
+def times_of_steps(program, work, settings, scene):
+    """Medians of the seconds of each step over five runs, and the summary of the last."""
+    runs = []
+    for _ in range(5):
+        log, _ = run([program, "--output", work, "--set", "Output/Fields="] + [word for setting in settings for word in ("--set", setting)] + [scene])
+        ends = [float(t) for t in re.findall(r"done in (\S+) s", log)]
+        begin = sum(float(t) for t in re.findall(r"^  (?:mesh|spaces|interface \w+|coupling|bulk) +(\S+) s", log, re.M))
+        runs.append([b - a for a, b in zip([begin] + ends, ends)])
+    with open(os.path.join(work, "summary.json")) as file:
+        return [statistics.median(times) for times in zip(*runs)], json.load(file)["steps"]
+
+
+def flow(program):
+    rows = ["| p | unknowns | linear: iterations | seconds | J2: to t | Newton | linear iterations | seconds | by the linear step |", "|---|---|---|---|---|---|---|---|---|"]
+    scene = os.path.join(TOP, "prm", "autofrettage.prm")
+    with tempfile.TemporaryDirectory() as work:
+        linear = os.path.join(work, "linear.prm")
+        with open(scene) as file, open(linear, "w") as to:
+            to.writelines(line for line in file if "set Law" not in line and "set Yield" not in line)
+        for p, inner, outer in ((2, "8, 4", "6, 4"), (3, "6, 4", "5, 3"), (4, "6, 3", "5, 3")):
+            mesh = [f"Body inner/Degree={p}", f"Body outer/Degree={p}", f"Body inner/Mesh/Subdivisions={inner}", f"Body outer/Mesh/Subdivisions={outer}"]
+            (once,), (step,) = times_of_steps(program, work, mesh + ["Steps/Step=1", "Steps/End time=1"], linear)
+            start = f"| {p} | {step['dofs']['total']} | {step['solver']['iterations']} | {once:.3f} |"
+            for seconds, step in zip(*times_of_steps(program, work, mesh + ["Steps/Step=0.25, 0.75, 0.9, 1, 2"], scene)):
+                solver = step["solver"]
+                rows.append(f"{start} {step['time']:g} | {solver['newton_iterations']} | {solver['linear_iterations']} | {seconds:.3f} | {seconds / once:.2f} |")
+                start = "| | | | |"
+    return rows
+
+
 def errors_of(program, output, settings):
     """The steps of the balloon."""
     scene = os.path.join(TOP, "tests", "field", "balloon_to_a_target.prm")
@@ -130,6 +166,7 @@ def main(benchmark, mortise):
     text = open(PAGE).read()
     head = text[:text.index(MARK) + len(MARK)]
     tables = ["## Products", ""] + products(benchmark) + ["", "## Scenes", ""] + scenes(mortise)
+    tables += ["", "## Steps of plasticity", "", FLOW, ""] + flow(mortise)
     tables += ["", "## Rates", "", RATES, ""] + rates(mortise) + ["", "## Target errors", ""] + targets(mortise)
     open(PAGE, "w").write(head + "\n" + "\n".join(tables) + "\n")
 
