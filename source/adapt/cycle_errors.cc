@@ -238,7 +238,7 @@ namespace mortise
     memory.upper_estimate =
       std::sqrt(most / std::max(unit * unit - most, least_part * unit * unit));
     // near a collapse small forces make large plastic strains
-    constexpr double part_of_change = 0.5;
+    constexpr double part_of_change = 1.;
     double           of_plastic     = 0.;
     for (const auto &body : bodies)
       if (has_history(*body))
