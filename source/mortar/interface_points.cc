@@ -54,8 +54,10 @@ namespace mortise
         result.mesh_gap[c] = points.master_x[c][q] - points.slave_x[c][q];
       }
     result.normal = face_normal(interface.slave().faces[slave], xi);
-    result.jump = value(interface.master_traces()[m].basis(), masters[m], eta) -
-                  value(interface.slave().traces[slave].basis(), of_slave, xi);
+    if (interface.slave().undeformed.empty())
+      result.jump =
+        value(interface.master_traces()[m].basis(), masters[m], eta) -
+        value(interface.slave().traces[slave].basis(), of_slave, xi);
     result.offset = offset ? offset(result.position) : 0.;
     return result;
   }

@@ -87,6 +87,14 @@ namespace mortise
   {
     Vector sum;
     initialize(sum);
+    if (of_interfaces.m() > 0)
+      {
+        of_interfaces.vmult(sum, src);
+        dst += sum;
+        sum = 0.;
+      }
+    if (!follower)
+      return;
     stiffness->complete(src);
     follower->add_product(src.begin(), sum.begin());
     stiffness->release(src);
@@ -338,6 +346,7 @@ namespace mortise
     };
     const auto fields = complete(x, values, of_pressure);
     follower.reset();
+    of_interfaces = SparseMatrix();
     positive = true;
     if (given != nullptr)
       {

@@ -127,7 +127,7 @@ namespace mortise
     if (!pressures)
       {
         stiffness->vmult_free(dst_u, u);
-        if (follower)
+        if (follower || of_interfaces.m() > 0)
           add_follower_product_free(dst_u, u);
         return;
       }
@@ -143,7 +143,7 @@ namespace mortise
     pressures->release(p);
     stiffness->gather(dst_u);
     pressures->gather(dst_p);
-    if (follower)
+    if (follower || of_interfaces.m() > 0)
       add_follower_product_free(dst_u, u);
   }
 

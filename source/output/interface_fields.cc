@@ -122,7 +122,7 @@ namespace mortise
                    const std::vector<double> &contact)
     {
       const BodySurface &surface = coupling.interface->slave();
-      const SurfaceFace &face    = surface.faces[s];
+      const SurfaceFace &face    = surface.undeformed_face(s);
       const TraceBasis  &basis   = surface.traces[s].basis();
       const unsigned int n       = basis.size();
       const bool         faces   = !coupling.local[s].partners.empty() &&
@@ -220,7 +220,10 @@ namespace mortise
         if (piece.of_points.empty())
           for (const FaceField &field : fields)
             piece.of_points.push_back({field.name, field.n_components, {}});
-        add_face(surface.faces[s], surface.traces[s].basis(), fields, piece);
+        add_face(surface.undeformed_face(s),
+                 surface.traces[s].basis(),
+                 fields,
+                 piece);
         piece.of_cells[0].values.push_back(coupling.interface->coverage()[s]);
       }
     write_vtu_file(piece, file, slave_body.triangulation().get_communicator());

@@ -23,7 +23,7 @@ namespace mortise
       std::set<std::string> named;
       for (const InterfaceParameters &interface :
            discretisation.interfaces().sides())
-        if (!interface.is_support &&
+        if (!interface.is_support && !interface.follows_bodies &&
             (interface.law != Law::tie || interface.preload) &&
             is_finite(run.parameters.bodies[interface.slave.body].material) &&
             named.insert(interface.name).second)
@@ -187,7 +187,7 @@ namespace mortise
         reference           = std::max(reached, std::sqrt(energy));
       }
     size                   = reached == 0. ? 0. : reached / reference;
-    const double tolerance = run.parameters.solver.tolerance;
+    const double tolerance = this->tolerance();
     if (size > tolerance && (is_first || size < largest_rounding) &&
         (stays || reached <= attainable(x)))
       size = tolerance;
@@ -282,18 +282,11 @@ namespace mortise
       norm = std::make_unique<ScaledResidual>(system);
     if (along == nullptr && contact == nullptr)
       extrapolate(x);
-    why = "Newton's method stagnates";
-    NewtonOptions options;
-    // problems of contact are solved to the tolerance beside all forces
-    options.tolerance =
-      (contact != nullptr ? 10. : 1.) * run.parameters.solver.tolerance;
-    options.max_iterations = most_newton_iterations;
-    options.accepted       = largest_residual;
-    options.patience       = most_rises;
-    options.monitor = [this](const unsigned int k, const double reached) {
-      print(k, reached);
-    };
-    newton = solve_newton(*this, options, x);
+    why    = "Newton's method stagnates";
+    newton = NewtonReport();
+    newton = contact != nullptr && discretisation.interfaces().follow() ?
+               follow(last, x) :
+               improve(most_newton_iterations, x);
     if (!newton.converged)
       least_cost = 0.; // preconditioners are of a state that is left
 
@@ -301,9 +294,30 @@ namespace mortise
     report.iterations        = newton.linear_iterations;
     report.relative_residual = newton.residual;
     report.attainable        = 0.;
-    report.tolerance         = options.tolerance;
+    report.tolerance         = tolerance();
     report.converged         = newton.converged;
     return report;
+  }
+
+  double
+  NonlinearStep::tolerance() const
+  {
+    // problems of contact are solved to the tolerance beside all forces
+    return (contact != nullptr ? 10. : 1.) * run.parameters.solver.tolerance;
+  }
+
+  NewtonReport
+  NonlinearStep::improve(const unsigned int most, SystemVector &x)
+  {
+    NewtonOptions options;
+    options.tolerance      = tolerance();
+    options.max_iterations = most;
+    options.accepted       = largest_residual;
+    options.patience       = most_rises;
+    options.monitor = [this](const unsigned int k, const double reached) {
+      print(newton.iterations + k, reached);
+    };
+    return solve_newton(*this, options, x);
   }
 
   void
@@ -328,15 +342,16 @@ namespace mortise
   }
 
   SolveReport
-  NonlinearStep::solve(const SceneData &of_step,
-                       ContactStep     *of_scene,
-                       SceneLoad       &given,
-                       const State     &last,
-                       State           &next)
+  NonlinearStep::solve(const SceneData              &of_step,
+                       std::unique_ptr<ContactStep> &of_contact,
+                       SceneLoad                    &given,
+                       const State                  &last,
+                       State                        &next)
   {
     load                     = &given;
     data                     = &of_step;
-    contact                  = of_scene;
+    of_scene                 = &of_contact;
+    contact                  = of_contact.get();
     SystemVector      x      = first_iterate(last);
     const SolveReport report = iterate(last, x);
     finish(x, next);

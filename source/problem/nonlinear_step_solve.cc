@@ -32,6 +32,8 @@ namespace mortise
     discretisation.linearise(
       x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
     linearised_at = x;
+    if (discretisation.interfaces().follow())
+      discretisation.add_force_stiffness(x.multiplier);
     preloads.system_changed();
     if (!refresh)
       return;
@@ -91,9 +93,11 @@ namespace mortise
         linear.rhs.pressure = r.pressure;
         linear.rhs.pressure += products.pressure;
       }
-    SystemVector      solution;
-    const SolveReport report = contact->solve(*data, linear, solution);
-    x                        = solution;
+    SystemVector solution;
+    SolveReport  report = contact->solve(*data, linear, solution);
+    if (!report.converged && discretisation.try_as_indefinite())
+      report = contact->solve(*data, linear, solution);
+    x = solution;
     x.displacement += load->prescribed_at_nodes;
     for (const unsigned int i : hanging)
       x.displacement.local_element(i) = 0.;

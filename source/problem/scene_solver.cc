@@ -65,6 +65,13 @@ namespace mortise
                       State             &state)
   {
     SceneLoad load = discretisation.load(data);
+    if (discretisation.interfaces().follow())
+      {
+        discretisation.pair(values.solutions);
+        discretisation.set_gaps(data, load);
+        contact = std::make_unique<ContactStep>(
+          run, discretisation, *linear_solver, preloads, state.contact);
+      }
     state.solution = discretisation.system_vector(values, load);
     preloads.begin(data, state.shortenings, load);
     if (contact)
@@ -94,7 +101,7 @@ namespace mortise
             nonlinear->resume(load, start, {}, first);
           }
         report = nonlinear->solve(
-          data, contact.get(), load, start.empty() ? last : first, next);
+          data, contact, load, start.empty() ? last : first, next);
       }
     else if (contact)
       {

@@ -10,7 +10,9 @@ namespace mortise
     data.emplace(context.parameters, time, field_checks);
     SceneLoad result = equations->discretisation.load(*data);
     field_checks.throw_if_any(context.comm);
-    check_loads(result.rhs);
+    // gaps of displaced bodies may be rounding of any size
+    if (!equations->discretisation.interfaces().follow())
+      check_loads(result.rhs);
     return result;
   }
 

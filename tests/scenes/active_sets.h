@@ -42,6 +42,15 @@ namespace mortise::testing
       return parameters;
     }
 
+    /// Pairs that are found again are those of displaced bodies, whatever the
+    /// law.
+    void
+    follow_bodies()
+    {
+      for (InterfaceParameters &interface : parameters.interfaces)
+        interface.follows_bodies = true;
+    }
+
     const RunContext &
     context() const
     {
@@ -69,7 +78,7 @@ namespace mortise::testing
       return parameters;
     }
 
-    const Parameters   parameters;
+    Parameters         parameters;
     const PointHistory history; // there is none
     std::ostringstream silence;
     RunLog             log;

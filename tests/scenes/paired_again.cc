@@ -105,6 +105,7 @@ namespace
     constexpr double shift = 0.3;
     EquationsOfScene scene(blocks(law, tetrahedra, 0.), settings, comm),
       there(blocks(law, tetrahedra, shift), settings, comm);
+    scene.follow_bodies();
     SolverOptions options;
     options.tolerance = 1e-12;
     options.method    = solver_method_from_name(method);
@@ -167,11 +168,12 @@ namespace
   void
   check_gaps(const bool tetrahedra)
   {
-    constexpr double  gap  = 0.1;
-    const MPI_Comm    comm = MPI_COMM_WORLD;
-    EquationsOfScene  scene(blocks("contact", tetrahedra, 0., gap),
-                            {"Interface glue/Offset=0.01*x + 0.02*y"},
+    constexpr double gap  = 0.1;
+    const MPI_Comm   comm = MPI_COMM_WORLD;
+    EquationsOfScene scene(blocks("contact", tetrahedra, 0., gap),
+                           {"Interface glue/Offset=0.01*x + 0.02*y"},
                            comm);
+    scene.follow_bodies();
     const std::string of =
       std::string("gaps, ") + (tetrahedra ? "tetrahedra" : "hexahedra");
     Discretisation &discretisation = scene.discretisation;

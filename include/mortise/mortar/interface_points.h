@@ -27,7 +27,9 @@ namespace mortise
   class InterfacePoints
   {
   public:
-    /// @p interface must live on; @p offset is kept. Collective.
+    /// @p interface must live on; it is undeformed, or has the present
+    /// @p displacement, so that there are no jumps but its gaps. @p offset is
+    /// kept. Collective.
     InterfacePoints(const InterfaceHandler  &interface,
                     const TraceDisplacement &displacement,
                     const Offset            &offset,

@@ -80,7 +80,7 @@ namespace mortise
     apply_stiffness(Vector &dst, const Vector &src) const
     {
       stiffness->vmult(dst, src);
-      if (follower)
+      if (follower || of_interfaces.m() > 0)
         add_follower_product(dst, src);
     }
 
@@ -244,6 +244,14 @@ namespace mortise
       positive = false;
     }
 
+    /// Add the stiffness of the forces of interfaces to K, until the next
+    /// linearise().
+    void
+    add_to_stiffness(SparseMatrix &&stiffness_of_interfaces)
+    {
+      of_interfaces = std::move(stiffness_of_interfaces);
+    }
+
     /// Forces by node, also at constrained components, of @p pressures at @p u,
     /// as for respond(); on @p boundary of body @p body alone, if that is
     /// given. Collective.
@@ -348,6 +356,7 @@ namespace mortise
     DirichletCellPressures                 dirichlet_cell_pressures;
     Vector                                 norm_diagonal;
     std::unique_ptr<FollowerPressures>     follower; ///< in K, or null
+    SparseMatrix                           of_interfaces; ///< likewise
     bool                                   positive = true;
   };
 } // namespace mortise

@@ -47,13 +47,14 @@ namespace mortise
     /// deformed faces become part of the external ones of @p load, and so do
     /// changes of the shortenings of preloads. Collective.
     /// @p data: of the time of @p load. @p contact: null, or that of the scene,
-    /// without friction; each linear problem is then one of contact.
+    /// without friction; each linear problem is then one of contact. Where
+    /// interfaces follow the bodies it is made again with each pairing.
     SolveReport
-    solve(const SceneData &data,
-          ContactStep     *contact,
-          SceneLoad       &load,
-          const State     &last,
-          State           &next);
+    solve(const SceneData              &data,
+          std::unique_ptr<ContactStep> &contact,
+          SceneLoad                    &load,
+          const State                  &last,
+          State                        &next);
 
     /// The same with arc-length control, without contact; sets the time and
     /// path of @p next, too. @p load becomes that of this time. Collective;
@@ -115,9 +116,20 @@ namespace mortise
     set_tolerance(double eta);
     SolveReport
     solve_tangent(const SystemVector &forces, SystemVector &dx);
-    /// Newton's method from @p x.
+    /// Newton's method from @p x, the last state or its start.
     SolveReport
     iterate(const State &last, SystemVector &x);
+    /// At most @p most iterations with the present pairs.
+    NewtonReport
+    improve(unsigned int most, SystemVector &x);
+    /// Iterations of which each has the pairs of the bodies at its start.
+    NewtonReport
+    follow(const State &last, SystemVector &x);
+    /// Pair the bodies where they are at @p displacement, with contact as
+    /// @p known. Collective.
+    void
+    pair_at(const Vector                        &displacement,
+            const std::optional<ContactRecords> &known);
     /// Set @p next and the forces of the load to those of the last iterate.
     void
     finish(const SystemVector &x, State &next);
@@ -137,6 +149,9 @@ namespace mortise
     /// Add forces of multipliers to r, and set its gaps.
     void
     add_interfaces(const SystemVector &x);
+    /// Of residual().
+    double
+    tolerance() const;
     /// What rounding leaves of the residual of @p x.
     double
     attainable(SystemVector x) const;
@@ -154,6 +169,7 @@ namespace mortise
     LinearSolver     &solver;
     Preloads         &preloads;
     const bool        may_yield; ///< one of the bodies
+    Vector            paired_at; ///< displacement; empty: not yet
     /// Indices of owned components that are prescribed.
     std::vector<unsigned int>       prescribed, hanging;
     std::unique_ptr<ScaledResidual> norm;
@@ -161,13 +177,14 @@ namespace mortise
     std::deque<SystemVector>        accepted; ///< the last states
 
     // of the present step
-    SceneLoad                  *load    = nullptr;
-    const SceneData            *data    = nullptr;
-    ContactStep                *contact = nullptr; ///< or none
-    const PathStep             *along   = nullptr; ///< without: time is given
-    PointHistory                before;
-    BulkSystem::Response        response;      ///< to the last iterate
-    SystemVector                r;             ///< forces that are left at it
+    SceneLoad                    *load     = nullptr;
+    const SceneData              *data     = nullptr;
+    ContactStep                  *contact  = nullptr; ///< or none
+    std::unique_ptr<ContactStep> *of_scene = nullptr; ///< which has it
+    const PathStep               *along = nullptr; ///< without: time is given
+    PointHistory                  before;
+    BulkSystem::Response          response;    ///< to the last iterate
+    SystemVector                  r;           ///< forces that are left at it
     std::optional<SystemVector> linearised_at; ///< of this step, or nothing yet
     double                      reference = 0.; ///< size of forces
     double       size = 0., size_before = 0.;   ///< of iterates' residuals

@@ -35,9 +35,45 @@ namespace mortise
     }
   } // namespace
 
+  namespace
+  {
+    /// @p is_nonlinear: has a body a law of finite strain or of plasticity?
+    void
+    check_sliding(const Parameters          &parameters,
+                  const InterfaceParameters &interface,
+                  const bool                 is_nonlinear)
+    {
+      const std::string path   = "Interface " + interface.name + "/Sliding";
+      const auto        refuse = [&](const std::string &with) {
+        parameters.fail(path, "finite with " + with, "small");
+      };
+      if (interface.law != Law::contact)
+        refuse("Law = " + name_of(interface.law));
+      if (!is_nonlinear)
+        refuse("bodies of linear laws alone");
+      if (has_friction(interface))
+        refuse("a Friction coefficient");
+      if (interface.ignores_mesh_gap)
+        refuse("Mesh gap = ignored");
+      if (parameters.adaptivity.target_error)
+        refuse("Adaptivity/Target error");
+      for (const InterfaceParameters &other : parameters.interfaces)
+        if (other.preload)
+          refuse("the Preload of interface " + other.name);
+    }
+  } // namespace
+
   void
   check_nonlinear_laws(const Parameters &parameters)
   {
+    const bool is_nonlinear = std::any_of(parameters.bodies.begin(),
+                                          parameters.bodies.end(),
+                                          [](const BodyParameters &any) {
+                                            return !is_linear(any.material);
+                                          });
+    for (const InterfaceParameters &interface : parameters.interfaces)
+      if (interface.follows_bodies)
+        check_sliding(parameters, interface, is_nonlinear);
     for (const BodyParameters &any : parameters.bodies)
       for (const auto &[name, boundary] : any.boundaries)
         if (boundary.pressure_follows.value_or(false) &&

@@ -82,8 +82,8 @@ namespace mortise
         interface.law,
         "Law of the interface. tie: no jump of the displacement. slide: no jump along the normal, free tangential "
         "motion; smooth patches of the slave between edges are interfaces of their own. contact: gap >= 0 and "
-        "pressure >= 0, with friction if a coefficient is given; displacements are small, partners those within Search "
-        "distance at the start. tresca: the same with a given bound of the tangential traction. spring: a thin layer "
+        "pressure >= 0, with friction if a coefficient is given; partners are those within Search distance at the start, "
+        "or as Sliding says. tresca: the same with a given bound of the tangential traction. spring: a thin layer "
         "or glue with the stiffnesses below.",
         Allowed::one_of(interface_law_names()));
       section.add(
@@ -139,6 +139,13 @@ namespace mortise
         "Law = contact: meaning of gaps and overlaps of the meshes. real: a gap or an interference; ignored: the "
         "surfaces coincide, as facets of different size on one circle do. Offset is added.",
         Allowed::one_of({"real", "ignored"}));
+      section.add(
+        "Sliding",
+        interface.follows_bodies,
+        "Law = contact in scenes with a law of finite strain: which pairs of faces and normals it has. small: those of "
+        "the undeformed bodies; finite: those of the deformed bodies, found again in each iteration of Newton's "
+        "method, so that bodies may slide and turn far. Search distance then holds for the motion of a step.",
+        Allowed::one_of({"small", "finite"}));
       section.add(
         "Multiplier",
         interface.multiplier,

@@ -314,7 +314,8 @@ namespace mortise
                 std::to_string(contact.undecided) + " of " +
                 std::to_string(contact.active + contact.inactive) +
                 " nodes pressure and gap are zero to rounding, so that the contact area is not determined there");
-            if (contact.penetration_max > large_penetration * moved &&
+            if (!given.follows_bodies &&
+                contact.penetration_max > large_penetration * moved &&
                 contact.penetration_max >
                   rounding_of_places *
                     largest_coordinate(

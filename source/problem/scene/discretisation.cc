@@ -19,6 +19,8 @@ namespace mortise
                                  Bodies           &bodies,
                                  const CyclePlan  &cycle)
     : run(run)
+    , silent(nowhere, run.comm)
+    , quiet{run.parameters, silent, run.timers, run.comm}
     , spaces(bodies, cycle)
   {
     create_spaces(run, data, spaces);
@@ -158,13 +160,13 @@ namespace mortise
       system.bulk->values_at_nodes([&](const auto body, const auto dof) {
         return prescribed_value(load.prescribed, numbering(body, dof));
       });
-    if (!system.bulk->is_nonlinear())
-      system.apply_to_constrained(values, load.rhs);
-    else if (load.rhs.multiplier.size() > 0)
-      system.constraint.vmult_free(load.rhs.multiplier, values);
-    scale(load.rhs, -1.);
     if (system.bulk->is_nonlinear())
       load.prescribed_at_nodes = std::move(values);
+    else
+      {
+        system.apply_to_constrained(values, load.rhs);
+        scale(load.rhs, -1.);
+      }
   }
 
   SceneLoad
@@ -192,11 +194,7 @@ namespace mortise
       load.follower_pressures =
         std::make_shared<const FollowerPressures>(system.bulk->levels().front(),
                                                   loads);
-    for (unsigned int i = 0; i < pairing->all().size(); ++i)
-      if (const auto offset = data.offset(pairing->sides()[i]);
-          offset && load.rhs.multiplier.size() > 0)
-        add_offset(pairing->all()[i], offset, load.rhs.multiplier);
-    add_mesh_gaps(load.rhs.multiplier);
+    add_gaps(data, load);
     for (const FreePressure &free : free_pressures)
       {
         if (const double flux = free.enclosure.flux(load.rhs); flux > 0.01)
@@ -214,6 +212,31 @@ namespace mortise
     if (system.mixed())
       system.free_pressures.project_residual(load.rhs.pressure);
     return load;
+  }
+
+  void
+  Discretisation::add_gaps(const SceneData &data, SceneLoad &load) const
+  {
+    Vector &gaps = load.rhs.multiplier;
+    if (gaps.size() == 0)
+      return;
+    if (load.prescribed_at_nodes.size() > 0)
+      {
+        Vector closed(gaps);
+        system.constraint.vmult_free(closed, load.prescribed_at_nodes);
+        gaps -= closed;
+      }
+    for (unsigned int i = 0; i < pairing->all().size(); ++i)
+      if (const auto offset = data.offset(pairing->sides()[i]))
+        add_offset(pairing->all()[i], offset, gaps);
+    add_mesh_gaps(gaps);
+  }
+
+  void
+  Discretisation::set_gaps(const SceneData &data, SceneLoad &load) const
+  {
+    load.rhs.multiplier = system.zero_vector().multiplier;
+    add_gaps(data, load);
   }
 
   SceneLoad

@@ -1,4 +1,5 @@
 // Contact of a Discretisation.
+#include <mortise/mortar/force_stiffness.h>
 #include <mortise/problem/scene/discretisation.h>
 
 #include <utility>
@@ -62,7 +63,7 @@ namespace mortise
   void
   Discretisation::pair(const std::vector<BodySolution> &displaced)
   {
-    set_pairing(std::make_unique<Pairing>(run, spaces, &displaced));
+    set_pairing(std::make_unique<Pairing>(quiet, spaces, &displaced));
     paired_at =
       system.bulk->values_at_nodes([&](const auto body, const auto dof) {
         return displaced[body].displacement(dof);
@@ -70,10 +71,17 @@ namespace mortise
   }
 
   void
+  Discretisation::add_force_stiffness(const Vector &multiplier)
+  {
+    system.bulk->add_to_stiffness(force_stiffness(
+      pairing->all(), multiplier, system.owned_displacement, run.comm));
+  }
+
+  void
   Discretisation::add_mesh_gaps(Vector &rhs) const
   {
     Vector closed; // by the displacements of the pairing
-    if (paired_at.size() > 0 && rhs.size() > 0)
+    if (paired_at.size() > 0)
       {
         closed = rhs;
         system.constraint.vmult_free(closed, paired_at);
@@ -85,7 +93,8 @@ namespace mortise
             {
               const unsigned int m = node.multipliers[r];
               rhs.begin()[m] += node.areas[r] * node.gap * node.normal[r];
-              if (closed.size() > 0)
+              if (closed.size() > 0 &&
+                  !coupling.interface->slave().undeformed.empty())
                 rhs.begin()[m] += closed.begin()[m];
             }
   }

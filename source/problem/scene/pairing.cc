@@ -75,8 +75,9 @@ namespace mortise
                          const std::string               &name,
                          const std::vector<BoundaryFace> &slave) const
   {
+    const bool moved        = displaced != nullptr && given.follows_bodies;
     const auto displacement = [&](const SideParameters &side) {
-      return displaced ? &(*displaced)[side.body].displacement : nullptr;
+      return moved ? &(*displaced)[side.body].displacement : nullptr;
     };
     const auto surface = [&](const SideParameters            &side,
                              const std::vector<BoundaryFace> &faces) {
@@ -92,7 +93,7 @@ namespace mortise
     BodySurface master_surface =
       given.is_support ? rigid_obstacle(slave_surface) :
                          surface(given.master, faces_of(given, given.master));
-    if (displaced)
+    if (moved)
       slave_surface.undeformed =
         undeformed_faces(*spaces.bodies[given.slave.body], slave_surface);
     InterfaceOptions options;

@@ -8,6 +8,7 @@
 #include <mortise/problem/scene/scene_spaces.h>
 #include <mortise/solvers/find_free_pressures.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,11 @@ namespace mortise
                              load.follower_pressures.get(),
                              preconditioners);
     }
+
+    /// Add the stiffness of the forces of @p multiplier on interfaces that
+    /// follow the bodies to the tangent, see force_stiffness(). Collective.
+    void
+    add_force_stiffness(const Vector &multiplier);
 
     /// See BulkSystem::show_tangent(). LinearSolver::update() must follow.
     void
@@ -171,12 +177,18 @@ namespace mortise
     }
 
     /// Replace the pairing by that of the configuration displaced by the
-    /// solutions @p displaced, by body; the bulk is kept. Gaps of contact are
-    /// then linear in displacements about that configuration.
-    /// LinearSolver::update_interfaces() must follow. Collective; throws
-    /// InputError as Pairing.
+    /// solutions @p displaced, by body, where interfaces follow the bodies; the
+    /// bulk is kept. Their gaps are then linear in displacements about that
+    /// configuration. LinearSolver::update_interfaces() and set_gaps() must
+    /// follow. Says nothing in the log. Collective; throws InputError as
+    /// Pairing.
     void
     pair(const std::vector<BodySolution> &displaced);
+
+    /// Set the gaps of the right hand side of @p load, that of @p data, to
+    /// those of the present pairing. Collective.
+    void
+    set_gaps(const SceneData &data, SceneLoad &load) const;
 
   private:
     /// A constant pressure of enclosed incompressible bodies.
@@ -191,9 +203,12 @@ namespace mortise
     void
     create_bulk();
     /// Let the right hand side of @p load be that of the solution without its
-    /// prescribed displacements.
+    /// prescribed displacements, but for gaps with nonlinear laws.
     void
     lift(SceneLoad &load) const;
+    /// Add offsets and the gaps of meshes.
+    void
+    add_gaps(const SceneData &data, SceneLoad &load) const;
     void
     find_free_pressures();
     /// Add the weighted gaps of contact without displacements to @p rhs, whose
@@ -205,6 +220,9 @@ namespace mortise
     prescribed_vector(const SceneLoad &load) const;
 
     const RunContext             &run;
+    std::ostream                  nowhere{nullptr};
+    RunLog                        silent;
+    const RunContext              quiet; ///< of pairings that are made again
     SceneSpaces                   spaces;
     std::unique_ptr<Pairing>      pairing;
     Vector                        paired_at; ///< at nodes; empty: undeformed

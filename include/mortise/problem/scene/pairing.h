@@ -15,8 +15,8 @@ namespace mortise
   class Pairing
   {
   public:
-    /// Pair the sides of all interfaces on the meshes, or displaced by the
-    /// solutions @p displaced, by body; integrate, and choose multipliers.
+    /// Pair the sides of all interfaces on the meshes, those that follow the
+    /// bodies displaced by the solutions @p displaced, by body; integrate, and choose multipliers.
     /// Slave and master are exchanged if other interfaces and prescribed
     /// displacements leave too few multipliers to tie the bodies. @p run and
     /// @p spaces must live on. Collective; throws InputError if surfaces do not
@@ -75,6 +75,17 @@ namespace mortise
                          [](const Coupling &coupling) {
                            return coupling.law.constrained ==
                                   ConstrainedDirections::normal;
+                         });
+    }
+
+    /// Do pairs of any interface follow the bodies?
+    bool
+    follow() const
+    {
+      return std::any_of(interfaces.begin(),
+                         interfaces.end(),
+                         [](const InterfaceParameters &given) {
+                           return given.follows_bodies;
                          });
     }
 

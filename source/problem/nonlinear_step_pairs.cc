@@ -1,0 +1,110 @@
+// Newton's method of a NonlinearStep where interfaces follow the bodies.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/mortar/coupling.h>
+#include <mortise/problem/nonlinear_step.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <string>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int most_pairings = 60, most_useless = 20,
+                           few_pairings = 10;
+
+    bool
+    are_equal(const Vector &a, const Vector &b, const MPI_Comm comm)
+    {
+      const bool same =
+        a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
+      return Utilities::MPI::min(same ? 1 : 0, comm) == 1;
+    }
+
+    /// By name of an interface: multiplier_coefficients().
+    using ByFace = std::map<std::string, std::vector<std::vector<double>>>;
+
+    ByFace
+    by_face(const Pairing &pairing,
+            const Vector  &multiplier,
+            const MPI_Comm comm)
+    {
+      ByFace result;
+      for (const Coupling &coupling : pairing.all())
+        result[coupling.interface->name()] =
+          multiplier_coefficients(coupling, multiplier, comm);
+      return result;
+    }
+
+    /// Those of patches that met no master before stay as they are.
+    void
+    take(const ByFace &known, const Pairing &pairing, Vector &multiplier)
+    {
+      for (const Coupling &coupling : pairing.all())
+        if (const auto found = known.find(coupling.interface->name());
+            found != known.end())
+          set_multiplier(coupling, found->second, multiplier);
+    }
+  } // namespace
+
+  void
+  NonlinearStep::pair_at(const Vector                        &displacement,
+                         const std::optional<ContactRecords> &known)
+  {
+    SystemVector x = discretisation.linear_system().zero_vector();
+    x.displacement = displacement;
+    SceneLoad without_prescribed;
+    discretisation.pair(discretisation.solutions(without_prescribed, x));
+    discretisation.set_gaps(*data, *load);
+    *of_scene = std::make_unique<ContactStep>(
+      run, discretisation, solver, preloads, known);
+    contact = of_scene->get();
+    norm    = std::make_unique<ScaledResidual>(discretisation.linear_system());
+    paired_at = displacement;
+  }
+
+  NewtonReport
+  NonlinearStep::follow(const State &last, SystemVector &x)
+  {
+    const auto zero = [this] {
+      return discretisation.linear_system().zero_vector().multiplier;
+    };
+    if (!are_equal(paired_at, x.displacement, run.comm))
+      {
+        pair_at(x.displacement, last.contact);
+        // those of the last state belong to this pairing
+        if (x.multiplier.size() != zero().size())
+          x.multiplier = zero();
+      }
+    double       best  = std::numeric_limits<double>::infinity();
+    unsigned int rises = 0;
+    NewtonReport all;
+    while (true)
+      {
+        const NewtonReport one = improve(1, x);
+        all.linear_iterations += one.linear_iterations;
+        all.residual  = one.residual;
+        all.converged = one.converged;
+        if (one.iterations == 0)
+          break;
+        all.linear        = one.linear;
+        newton.iterations = all.iterations += one.iterations;
+        rises             = one.residual < best ? 0 : rises + 1;
+        best              = std::min(best, one.residual);
+        if (all.iterations == most_pairings || rises == most_useless)
+          break;
+        const auto known =
+          by_face(discretisation.interfaces(), x.multiplier, run.comm);
+        pair_at(x.displacement, contact->records());
+        x.multiplier = zero();
+        take(known, discretisation.interfaces(), x.multiplier);
+      }
+    all.easy = all.converged && all.iterations <= few_pairings;
+    return all;
+  }
+} // namespace mortise
