@@ -23,12 +23,15 @@ namespace mortise
     class RowsOfNodes
     {
     public:
+      /// @p directed: has each component entries of its own?
       RowsOfNodes(const Body                                          &body,
                   const BodySurface                                   &slave,
-                  const std::vector<MultiplierSpace::FaceMultipliers> &by_face)
+                  const std::vector<MultiplierSpace::FaceMultipliers> &by_face,
+                  const bool                                           directed)
         : numbers(body.dof_handler.locally_owned_dofs(),
                   body.relevant_dofs,
                   body.triangulation().get_communicator())
+        , directed(directed)
       {
         for (unsigned int s = 0; s < slave.faces.size(); ++s)
           {
@@ -99,12 +102,14 @@ namespace mortise
           entity = n;
         if (c == 0)
           n_nodes = n + 1 - entity;
-        owned.push_back({first + entity + (n - entity) % n_nodes, c});
+        owned.push_back(
+          {first + (directed ? n : entity + (n - entity) % n_nodes), c});
       }
 
       std::vector<std::array<std::vector<Index>, dim>> dofs;   ///< by face
       std::vector<std::vector<bool>>                   shared; ///< likewise
       ByDof                                            numbers;
+      const bool                                       directed;
       /// Of the entity that add_owned() is in: its first row, its nodes.
       unsigned int entity = 0, n_nodes = 0;
     };
@@ -115,7 +120,7 @@ namespace mortise
   {
     return n_directions == dim ?
              n_owned() :
-             RowsOfNodes(body, slave, numbered.by_face).n_owned();
+             RowsOfNodes(body, slave, numbered.by_face, directed).n_owned();
   }
 
   MultiplierSpace::ComponentRows
@@ -130,7 +135,7 @@ namespace mortise
           result.frames.emplace_back(first_number + i, first + i, 1.);
         return result;
       }
-    RowsOfNodes of_nodes(body, slave, numbered.by_face);
+    RowsOfNodes of_nodes(body, slave, numbered.by_face, directed);
     of_nodes.number(first);
     result.rows.owned = of_nodes.owned;
     for (unsigned int s = 0; s < numbered.by_face.size(); ++s)
@@ -144,17 +149,18 @@ namespace mortise
           {
             rows.index.push_back(of_nodes.rows[s][r]);
             rows.weight.push_back(1.);
-            rows.is_represented.push_back(r >= n);
+            rows.is_represented.push_back(r >= n && !directed);
             rows.begin.push_back(r + 1);
           }
         std::map<std::pair<Index, Index>, double> of_face;
+        const Tensor<1, dim>                      ones({1., 1., 1.});
         for (unsigned int k = 0; k < n; ++k)
           own.for_each_direction(
             k, [&](const unsigned int i, const Tensor<1, dim> &direction) {
               for (unsigned int e = own.begin[k]; e < own.begin[k + 1]; ++e)
                 for (unsigned int c = 0; c < dim; ++c)
                   of_face[{own.index[e], of_nodes.rows[s][c * n + i]}] +=
-                    own.weight[e] * direction[c];
+                    own.weight[e] * (directed ? ones : direction)[c];
             });
         for (const auto &[place, weight] : of_face)
           result.frames.emplace_back(place.first, place.second, weight);

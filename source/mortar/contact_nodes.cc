@@ -241,7 +241,9 @@ namespace mortise
                         }
                       sums[area_sum](index) += w * own * along;
                       sums[gap_sum](index) +=
-                        w * (local.gap_moment[i] * direction);
+                        w * (local.is_directed() ?
+                               local.distance_moment[i] :
+                               local.gap_moment[i] * direction);
                       sums[stiffness_sum](index) +=
                         w * own * along * local.penalty;
                       sums[pressure_sum](index) +=

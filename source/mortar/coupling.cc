@@ -124,6 +124,27 @@ namespace mortise
                       factor);
               });
             };
+            const auto all_directed = [&](const FaceTrace &side,
+                                          const auto      &blocks,
+                                          const double     factor) {
+              const NodalColumns columns(side);
+              for_each_component([&](const unsigned int c) {
+                visit(rows.component(c),
+                      columns.component(),
+                      values ? columns.in_columns(blocks[c]) : blocks[c],
+                      factor);
+              });
+            };
+            if (local.is_directed())
+              {
+                all_directed(slave, local.directed, 1.);
+                for (const auto &partner : local.partners)
+                  all_directed(
+                    coupling.interface->master_traces()[partner.master],
+                    partner.directed,
+                    -1.);
+                return;
+              }
             if (local.is_dual())
               {
                 const NodalColumns own(slave);

@@ -90,12 +90,12 @@ namespace mortise
              const SurfaceFace         &master_face,
              const FaceTrace           &master,
              const LocalCoupling       &local,
-             const std::vector<double> &tractions)
+             const std::vector<double> &coefficients)
         : slave_face(slave_face)
         , slave(slave)
         , master(master)
         , local(local)
-        , tractions(tractions)
+        , coefficients(coefficients)
       {
         polynomial.reinit(master_face, Point<dim>());
       }
@@ -119,7 +119,7 @@ namespace mortise
           }
         std::vector<double> pressures(n_q);
         for (unsigned int q = 0; q < n_q; ++q)
-          pressures[q] = pressure(points, q, &of_slave(q, 0));
+          pressures[q] = pressure(&of_slave(q, 0));
 
         of_slave  = NodalColumns(slave).in_columns(of_slave);
         of_master = NodalColumns(master).in_columns(of_master);
@@ -131,7 +131,7 @@ namespace mortise
         for (unsigned int q = 0; q < n_q; ++q)
           {
             const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]);
-            const Tensor<1, dim> normal = face_normal(slave_face, xi);
+            const Tensor<1, dim> normal = averaged_normal(slave_face, xi);
             Geometry             at =
               geometry_at(polynomial,
                           {points.master_eta[0][q], points.master_eta[1][q]});
@@ -142,8 +142,11 @@ namespace mortise
                   for (double &entry : row)
                     entry *= -1.;
               }
-            const double factor =
-              -pressures[q] * points.weight[q] / (at.nu * normal);
+            const double factor = -pressures[q] * points.weight[q] *
+                                  normal.norm() / (at.nu * normal);
+            // points move along the slave's normal
+            for (Tensor<1, dim> &dual : at.dual)
+              dual -= (dual * normal) / (at.nu * normal) * at.nu;
             for (unsigned int a = 0; a < 2; ++a)
               for (unsigned int c = 0; c < dim; ++c)
                 {
@@ -192,29 +195,20 @@ namespace mortise
 
       /// Of the slave's functions @p values.
       double
-      pressure(const IntegrationPoints &points,
-               const unsigned int       q,
-               const double            *values) const
+      pressure(const double *values) const
       {
-        const unsigned int n = slave.n_functions();
-        Tensor<1, dim>     traction;
+        const unsigned int n      = slave.n_functions();
+        double             result = 0.;
         for (unsigned int i = 0; i < n; ++i)
-          {
-            double psi = 0.;
-            for (unsigned int j = 0; j < n; ++j)
-              psi += local.multiplier(i, j) * values[j];
-            for (unsigned int c = 0; c < dim; ++c)
-              traction[c] += psi * tractions[c * n + i];
-          }
-        return traction *
-               face_normal(slave_face,
-                           {points.slave_xi[0][q], points.slave_xi[1][q]});
+          for (unsigned int j = 0; j < n; ++j)
+            result += coefficients[i] * local.multiplier(i, j) * values[j];
+        return result;
       }
 
       const SurfaceFace         &slave_face;
       const FaceTrace           &slave, &master;
       const LocalCoupling       &local;
-      const std::vector<double> &tractions;
+      const std::vector<double> &coefficients;
       FacePolynomial             polynomial;
     };
 
@@ -232,21 +226,21 @@ namespace mortise
                   const MPI_Comm               comm)
   {
     RowAssembler assembler(owned_displacement, owned_displacement);
-    std::vector<std::vector<std::vector<double>>> tractions;
+    std::vector<std::vector<std::vector<double>>> coefficients;
     const auto is_loaded = [](const std::vector<double> &of_face) {
-      return std::any_of(of_face.begin(), of_face.end(), [](const double t) {
-        return t != 0.;
+      return std::any_of(of_face.begin(), of_face.end(), [](const double p) {
+        return p != 0.;
       });
     };
     for (const Coupling &coupling : couplings)
       {
-        tractions.emplace_back();
+        coefficients.emplace_back();
         if (!is_displaced(coupling))
           continue;
-        tractions.back() = multiplier_coefficients(coupling, multiplier, comm);
+        coefficients.back() = values_by_row(coupling, multiplier, comm);
         const InterfaceHandler &interface = *coupling.interface;
         for (unsigned int s = 0; s < coupling.local.size(); ++s)
-          if (is_loaded(tractions.back()[s]))
+          if (is_loaded(coefficients.back()[s]))
             for (const auto &partner : coupling.local[s].partners)
               {
                 const ExpansionList all =
@@ -263,7 +257,7 @@ namespace mortise
           interface.visit_pairs([&](const unsigned int       s,
                                     const unsigned int       m,
                                     const IntegrationPoints &points) {
-            if (!is_loaded(tractions[i][s]))
+            if (!is_loaded(coefficients[i][s]))
               return;
             const FaceTrace &slave  = interface.slave().traces[s],
                             &master = interface.master_traces()[m];
@@ -272,7 +266,7 @@ namespace mortise
                            interface.master_faces()[m],
                            master,
                            couplings[i].local[s],
-                           tractions[i][s]);
+                           coefficients[i][s]);
             const ExpansionList all = displacements(slave, master);
             assembler.add(all(), all(), of_pair(points), 1., false);
           });

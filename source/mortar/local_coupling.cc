@@ -94,6 +94,18 @@ namespace mortise
       return {weights.begin(), weights.end()};
     }
 
+    /// Integrals with the multipliers psi = A N from those with N.
+    void
+    take_multipliers(const FullMatrix<double>            &A,
+                     std::array<FullMatrix<double>, dim> &of_components)
+    {
+      for (FullMatrix<double> &integrals : of_components)
+        {
+          const FullMatrix<double> of_functions = integrals;
+          A.mmult(integrals, of_functions);
+        }
+    }
+
     /// What follows from the integrals of shape functions.
     void
     set_multipliers(const FaceTrace &trace,
@@ -132,6 +144,18 @@ namespace mortise
         {
           partner.constraint.reinit(n, partner.mixed.n());
           local.multiplier.mmult(partner.constraint, partner.mixed);
+        }
+      if (local.is_directed())
+        {
+          take_multipliers(local.multiplier, local.directed);
+          for (auto &partner : local.partners)
+            take_multipliers(local.multiplier, partner.directed);
+          const dealii::Vector<double> of_functions(
+            local.distance_moment.begin(), local.distance_moment.end());
+          dealii::Vector<double> of_multipliers(n);
+          local.multiplier.vmult(of_multipliers, of_functions);
+          local.distance_moment.assign(of_multipliers.begin(),
+                                       of_multipliers.end());
         }
       for (auto *moments : {&local.gap_moment,
                             &local.position_moment,
@@ -227,6 +251,32 @@ namespace mortise
     }
   } // namespace
 
+  namespace
+  {
+    /// d of LocalCoupling at points @p first, ..., by component.
+    std::array<std::vector<double>, dim>
+    directions(const SurfaceFace       &slave,
+               const SurfaceFace       &master,
+               const IntegrationPoints &points,
+               const unsigned int       first,
+               const unsigned int       n)
+    {
+      std::array<std::vector<double>, dim> result;
+      for (unsigned int q = first; q < first + n; ++q)
+        {
+          const Tensor<1, dim> along =
+            averaged_normal(slave,
+                            {points.slave_xi[0][q], points.slave_xi[1][q]});
+          const Tensor<1, dim> nu =
+            -face_normal(master,
+                         {points.master_eta[0][q], points.master_eta[1][q]});
+          for (unsigned int c = 0; c < dim; ++c)
+            result[c].push_back(along.norm() * nu[c] / (along * nu));
+        }
+      return result;
+    }
+  } // namespace
+
   std::vector<LocalCoupling>
   integrate_coupling(InterfaceHandler                      &interface,
                      const bool                             with_master_mass,
@@ -234,16 +284,18 @@ namespace mortise
                      const bool                             may_be_independent,
                      const std::vector<std::vector<Frame>> &frames)
   {
+    const bool is_displaced = !interface.slave().undeformed.empty(),
+               is_directed  = is_displaced && !frames.empty();
     std::vector<LocalCoupling> couplings(interface.slave().faces.size());
     // empty where the normal does not turn
     std::vector<std::vector<Tensor<1, dim>>> turning(couplings.size());
     std::vector<NormalMoments>               normal_moments(couplings.size());
-    for (unsigned int s = 0; s < frames.size(); ++s)
+    for (unsigned int s = 0; s < frames.size() && !is_directed; ++s)
       if (are_unlike(frames[s]))
         turning[s] = in_functions(frames[s], interface.slave().traces[s]);
-    FullMatrix<double> slave_values, master_values, weighted, positions, moment;
-    const bool         is_displaced = !interface.slave().undeformed.empty();
-    const unsigned int n_vectors    = is_displaced ? 3 : 2;
+    FullMatrix<double> slave_values, master_values, weighted, positions, moment,
+      of_direction;
+    const unsigned int n_vectors = is_displaced ? 3 : 2;
 
     interface.integrate_pairs([&](const unsigned int       s,
                                   const unsigned int       m,
@@ -263,7 +315,16 @@ namespace mortise
             local.undeformed_moment.resize(n_slave);
           for (auto &moments : normal_moments[s])
             moments.reinit(n_slave, n_slave);
+          if (is_directed)
+            {
+              local.distance_moment.resize(n_slave);
+              for (auto &of_component : local.directed)
+                of_component.reinit(n_slave, n_slave);
+            }
         }
+      if (is_directed)
+        for (auto &of_component : partner.directed)
+          of_component.reinit(n_slave, master.n_functions());
 
       partner.mixed.reinit(n_slave, master.n_functions());
       if (with_master_mass)
@@ -283,6 +344,24 @@ namespace mortise
                                weighted,
                                normal_moments[s]);
           weighted.Tmmult(partner.mixed, master_values, true);
+          if (is_directed)
+            {
+              const auto d = directions(interface.slave().faces[s],
+                                        interface.master_faces()[m],
+                                        points,
+                                        first,
+                                        n);
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  scale_rows(weighted, d[c].data(), of_direction);
+                  of_direction.Tmmult(local.directed[c], slave_values, true);
+                  of_direction.Tmmult(partner.directed[c], master_values, true);
+                }
+              for (unsigned int q = 0; q < n; ++q)
+                for (unsigned int i = 0; i < n_slave; ++i)
+                  local.distance_moment[i] +=
+                    weighted(q, i) * points.gap[first + q];
+            }
           positions.reinit(n, n_vectors * dim, true);
           for (unsigned int q = 0; q < n; ++q)
             for (unsigned int c = 0; c < dim; ++c)

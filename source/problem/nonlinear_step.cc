@@ -283,7 +283,6 @@ namespace mortise
     if (along == nullptr && contact == nullptr)
       extrapolate(x);
     why    = "Newton's method stagnates";
-    newton = NewtonReport();
     newton = contact != nullptr && discretisation.interfaces().follow() ?
                follow(last, x) :
                improve(most_newton_iterations, x);
@@ -314,9 +313,10 @@ namespace mortise
     options.max_iterations = most;
     options.accepted       = largest_residual;
     options.patience       = most_rises;
-    options.monitor = [this](const unsigned int k, const double reached) {
-      print(newton.iterations + k, reached);
-    };
+    if (most > 1)
+      options.monitor = [this](const unsigned int k, const double reached) {
+        print(k, reached);
+      };
     return solve_newton(*this, options, x);
   }
 

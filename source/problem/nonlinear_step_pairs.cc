@@ -18,6 +18,11 @@ namespace mortise
     constexpr unsigned int most_pairings = 60, most_useless = 20,
                            few_pairings = 10;
 
+    /// Residuals below this that do not fall by half in so many iterations are
+    /// what numbers of points of integration leave that change with the pairs.
+    constexpr double       rounding_of_pairs = 1e-6;
+    constexpr unsigned int most_of_rounding  = 3;
+
     bool
     are_equal(const Vector &a, const Vector &b, const MPI_Comm comm)
     {
@@ -84,25 +89,30 @@ namespace mortise
     double       best  = std::numeric_limits<double>::infinity();
     unsigned int rises = 0;
     NewtonReport all;
-    while (true)
+    while (all.iterations < most_pairings && rises < most_useless)
       {
         const NewtonReport one = improve(1, x);
         all.linear_iterations += one.linear_iterations;
-        all.residual  = one.residual;
-        all.converged = one.converged;
+        all.linear = one.linear;
         if (one.iterations == 0)
-          break;
-        all.linear        = one.linear;
-        newton.iterations = all.iterations += one.iterations;
-        rises             = one.residual < best ? 0 : rises + 1;
-        best              = std::min(best, one.residual);
-        if (all.iterations == most_pairings || rises == most_useless)
-          break;
+          {
+            all.residual  = one.residual;
+            all.converged = one.converged;
+            break;
+          }
         const auto known =
           by_face(discretisation.interfaces(), x.multiplier, run.comm);
         pair_at(x.displacement, contact->records());
         x.multiplier = zero();
         take(known, discretisation.interfaces(), x.multiplier);
+        all.residual = residual(x);
+        print(++all.iterations, all.residual);
+        rises         = all.residual < 0.5 * best ? 0 : rises + 1;
+        best          = std::min(best, all.residual);
+        all.converged = all.residual <= tolerance() ||
+                        (best < rounding_of_pairs && rises >= most_of_rounding);
+        if (all.converged)
+          break;
       }
     all.easy = all.converged && all.iterations <= few_pairings;
     return all;

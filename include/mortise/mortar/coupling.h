@@ -20,7 +20,8 @@ namespace mortise
   /// One interface with its integrals.
   struct Coupling
   {
-    InterfaceLaw                      law;
+    InterfaceLaw law;
+    bool         is_directed = false; ///< see LocalCoupling::is_directed()
     std::unique_ptr<InterfaceHandler> interface;
     std::vector<std::vector<Frame>>   frames; ///< see slave_frames()
     std::vector<LocalCoupling>        local;  ///< by slave face

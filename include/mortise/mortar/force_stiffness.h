@@ -5,12 +5,12 @@
 //
 //   delta alpha = nu . (delta x_m - delta x_s) / (n . nu),
 //   (n . nu) Delta delta alpha = V_a T_a + T_a V_a + b_ab T_a T_b,
-//   V_a = nu . (delta x_m),a,  T_a = m^a . (delta x_s - delta x_m),
+//   V_a = nu . (delta x_m),a,  T_a = e^a . (delta x_s - delta x_m),
 //   b_ab = nu . x_m,ab,
 //
-// with the normal nu of the master into the slave's side and its dual tangents
-// m^a. Source: the second derivative of alpha at alpha = 0, as in Hiermeier,
-// Wall, Popp (2018).
+// with the normal nu of the master into the slave's side, and its dual tangents
+// m^a, e^a = m^a - (m^a . n) / (nu . n) nu. Source: the second derivative of
+// alpha at alpha = 0, as in Hiermeier, Wall, Popp (2018).
 #pragma once
 
 #include <mortise/mortar/coupling.h>

@@ -15,6 +15,7 @@
 #include <mortise/interface/interface_handler.h>
 #include <mortise/mortar/slave_frames.h>
 
+#include <array>
 #include <vector>
 
 namespace mortise
@@ -39,6 +40,8 @@ namespace mortise
       dealii::FullMatrix<double>
         mass; ///< int N_i^master N_j^master; empty unless asked for
       dealii::FullMatrix<double> constraint; ///< int psi_i N_j^master
+      /// See LocalCoupling; int psi_i N_j^master d.
+      std::array<dealii::FullMatrix<double>, dim> directed;
     };
 
     dealii::FullMatrix<double>
@@ -46,6 +49,14 @@ namespace mortise
     /// psi_i = sum_j multiplier_ij N_j.
     dealii::FullMatrix<double> multiplier;
     dealii::FullMatrix<double> constraint; ///< int psi_i N_j^slave
+    /// By component of d, of contact that follows the bodies: int psi_i
+    /// N_j^slave d, d = nu / (n . nu) with the normals n of the slave, along
+    /// which points are projected, and nu of the master, into the slave's side.
+    /// A displacement changes the distance of the sides by d . (u_master -
+    /// u_slave), where they touch. Else empty.
+    std::array<dealii::FullMatrix<double>, dim> directed;
+    /// Likewise: int psi_i alpha of that distance.
+    std::vector<double> distance_moment;
     /// Dual multipliers: int psi_i; else empty.
     std::vector<double> weights;
     std::vector<dealii::Tensor<1, dim>>
@@ -73,6 +84,14 @@ namespace mortise
     places() const
     {
       return undeformed_moment.empty() ? position_moment : undeformed_moment;
+    }
+
+    /// Are pressures normal to the master at each point, and not to the slave
+    /// at its nodes?
+    bool
+    is_directed() const
+    {
+      return !distance_moment.empty();
     }
 
     bool

@@ -206,6 +206,7 @@ namespace mortise
     std::vector<std::vector<Frame>> frames; ///< by face, see FaceMultipliers
     unsigned int      n_directions;         ///< dim, or 1: along the normals
     bool              one_sided;
+    bool              directed; ///< see LocalCoupling::is_directed()
     std::vector<bool> has_dual; ///< by face
     /// By face: have all components the same functions, since the pressure at a
     /// node of friction is a sum of several?

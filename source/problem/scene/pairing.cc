@@ -108,6 +108,8 @@ namespace mortise
     options.master_boundary = boundary(given.master);
     Coupling coupling;
     coupling.law = interface_law(run.parameters, given);
+    coupling.is_directed =
+      moved && coupling.law.constrained == ConstrainedDirections::normal;
     coupling.interface =
       std::make_unique<InterfaceHandler>(name,
                                          std::move(slave_surface),
