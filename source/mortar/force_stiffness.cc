@@ -211,12 +211,6 @@ namespace mortise
       const std::vector<double> &coefficients;
       FacePolynomial             polynomial;
     };
-
-    bool
-    is_displaced(const Coupling &coupling)
-    {
-      return !coupling.interface->slave().undeformed.empty();
-    }
   } // namespace
 
   SparseMatrix
@@ -235,7 +229,7 @@ namespace mortise
     for (const Coupling &coupling : couplings)
       {
         coefficients.emplace_back();
-        if (!is_displaced(coupling))
+        if (!coupling.is_directed())
           continue;
         coefficients.back() = values_by_row(coupling, multiplier, comm);
         const InterfaceHandler &interface = *coupling.interface;
@@ -251,7 +245,7 @@ namespace mortise
       }
     assembler.allocate();
     for (unsigned int i = 0; i < couplings.size(); ++i)
-      if (is_displaced(couplings[i]))
+      if (couplings[i].is_directed())
         {
           const InterfaceHandler &interface = *couplings[i].interface;
           interface.visit_pairs([&](const unsigned int       s,

@@ -234,7 +234,7 @@ namespace mortise
     , n_directions(
         coupling.law.constrained == ConstrainedDirections::all ? dim : 1)
     , one_sided(coupling.law.is_one_sided())
-    , directed(coupling.is_directed)
+    , directed(coupling.is_directed())
   {
     const BodySurface &slave = coupling.interface->slave();
     for (const PartnerState &partner : partners)

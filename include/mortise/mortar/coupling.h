@@ -21,13 +21,20 @@ namespace mortise
   struct Coupling
   {
     InterfaceLaw law;
-    bool         is_directed = false; ///< see LocalCoupling::is_directed()
+    bool         is_displaced = false; ///< its bodies, on all ranks
     std::unique_ptr<InterfaceHandler> interface;
     std::vector<std::vector<Frame>>   frames; ///< see slave_frames()
     std::vector<LocalCoupling>        local;  ///< by slave face
     std::unique_ptr<MultiplierSpace>  multipliers;
     /// Owned nodes of contact; else empty.
     std::vector<ContactNode> contact_nodes;
+
+    /// See LocalCoupling; the same on all ranks.
+    bool
+    is_directed() const
+    {
+      return is_displaced && law.constrained == ConstrainedDirections::normal;
+    }
   };
 
   /// By coupling and slave face; after the integration of all interfaces that

@@ -93,8 +93,7 @@ namespace mortise
             {
               const unsigned int m = node.multipliers[r];
               rhs.begin()[m] += node.areas[r] * node.gap * node.normal[r];
-              if (closed.size() > 0 &&
-                  !coupling.interface->slave().undeformed.empty())
+              if (closed.size() > 0 && coupling.is_displaced)
                 rhs.begin()[m] += closed.begin()[m];
             }
   }

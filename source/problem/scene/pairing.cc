@@ -107,9 +107,8 @@ namespace mortise
     options.slave_boundary  = boundary(given.slave);
     options.master_boundary = boundary(given.master);
     Coupling coupling;
-    coupling.law = interface_law(run.parameters, given);
-    coupling.is_directed =
-      moved && coupling.law.constrained == ConstrainedDirections::normal;
+    coupling.law          = interface_law(run.parameters, given);
+    coupling.is_displaced = moved;
     coupling.interface =
       std::make_unique<InterfaceHandler>(name,
                                          std::move(slave_surface),

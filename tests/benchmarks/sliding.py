@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""sliding.py MORTISE: contact that follows the bodies beside the same bodies with pairs that stay and with a tie. Writes its part of
+doc/measurements/deformed_contact.md: iterations by step and seconds of a ball that is pushed in a cup, and of a block that slides over another one."""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+from page import write_part
+from processor import openblas
+
+STAR = 0.5 / (1 - 0.3**2)  # E = 1 on both sides
+
+BALL = """set Bodies     = ball, cup
+set Interfaces = touch
+{ball}{cup}subsection Interface touch
+  set Slave   = ball: outside
+  set Master  = cup: inside
+  set Law     = {law}
+{sliding}end
+subsection Steps
+  set Step     = 0.25
+  set End time = 1
+end
+subsection Output
+  set Fields =
+end
+"""
+
+SHELL = """subsection Body {name}
+  set Degree = {degree}
+  subsection Mesh
+    set Source       = shell octant
+    set Extent       = {extent}
+    set Subdivisions = {cells}
+  end
+  subsection Material
+    set Law           = neo-Hookean
+    set Young modulus = 1
+    set Poisson ratio = 0.3
+  end
+  subsection Boundary {held}
+    set Displacement = {displacement}
+  end
+  subsection Boundary xmin
+    set Displacement = 0, -, -
+  end
+  subsection Boundary ymin
+    set Displacement = -, 0, -
+  end
+end
+"""
+
+
+def ball(degree, n, push, law, sliding):
+    bodies = [SHELL.format(name=name, degree=degree, extent=extent, cells=f"{cells}, {max(1, cells // 2)}", held=held, displacement=displacement)
+              for name, extent, cells, held, displacement in (("ball", "0.5, 1", 3 * n, "inside", f"0, 0, {push}*t"), ("cup", "1.02, 1.5", 2 * n, "outside", "0, 0, 0"))]
+    return BALL.format(ball=bodies[0], cup=bodies[1], law=law, sliding=f"  set Sliding = {sliding}\n" if sliding else "")
+
+
+def measure(mortise, text):
+    """The summary of a run."""
+    environment = dict(os.environ, OMP_NUM_THREADS="1", DEAL_II_NUM_THREADS="1", **openblas())
+    with tempfile.TemporaryDirectory() as work:
+        scene = os.path.join(work, "scene.prm")
+        with open(scene, "w") as file:
+            file.write(text)
+        run = subprocess.run([mortise, "--output", work, scene], env=environment, capture_output=True, text=True, timeout=600)
+        if run.returncode:
+            return None
+        with open(os.path.join(work, "summary.json")) as file:
+            return json.load(file)
+
+
+def newton(summary):
+    return " ".join(str(step["solver"]["newton_iterations"]) for step in summary["steps"]) if summary else "-"
+
+
+def pairing_share(summary):
+    times = summary["timings_s"]
+    return sum(times.get(name, 0.) for name in ("interface_search", "interface_clipping", "coupling")) / times["total"]
+
+
+def balls(mortise):
+    rows = ["| p | cells along an edge of ball, cup | unknowns | pmax/E* | Newton, by step | pairs that stay | tied | seconds | pairs that stay | tied | search, clipping and coupling |", "|---" * 11 + "|"]
+    for degree, n in ((1, 4), (2, 2), (3, 1), (3, 2), (4, 1)):
+        for push in (0.05, 0.15, 0.25):
+            follows, stays, tied = (measure(mortise, ball(degree, n, push, law, sliding)) for law, sliding in (("contact", "finite"), ("contact", "small"), ("tie", None)))
+            pressure = follows["steps"][-1]["interfaces"][0]["contact"]["pressure_max"] / STAR if follows else float("nan")
+            seconds = [f"{one['timings_s']['total']:.2f}" if one else "-" for one in (follows, stays, tied)]
+            rows.append(f"| {degree} | {3 * n}, {2 * n} | {follows['steps'][-1]['dofs']['total'] if follows else ''} | {pressure:.2f} | {newton(follows)} | {newton(stays)} | {newton(tied)} | "
+                        + " | ".join(seconds) + f" | {100 * pairing_share(follows):.0f} % |" if follows else f"| {degree} | {3 * n}, {2 * n} | | | - | {newton(stays)} | {newton(tied)} | " + " | ".join(seconds) + " | |")
+            print(rows[-1], flush=True)
+    return rows
+
+
+def slides(mortise):
+    top = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "field", "block_slides_on_rubber.prm")
+    with open(top) as file:
+        text = file.read()
+    rows = ["| p | Newton, by step | normal force, mean | largest deviation, relative | tangential force, largest, relative |", "|---" * 5 + "|"]
+    for degree in (1, 2, 3):
+        summary = measure(mortise, re.sub(r"set Degree = \d", f"set Degree = {degree}", text))
+        if not summary:
+            rows.append(f"| {degree} | - | | | |")
+            continue
+        forces = [step["quantities"]["top"] for step in summary["steps"] if step["time"] > 2 - 1e-9]
+        mean = sum(f[2] for f in forces) / len(forces)
+        rows.append(f"| {degree} | {newton(summary)} | {mean:.5f} | {max(abs(f[2] / mean - 1) for f in forces):.1e} | {max(abs(f[0] / mean) for f in forces):.1e} |")
+        print(rows[-1], flush=True)
+    return rows
+
+
+def main(mortise):
+    text = ["### A ball in a cup", "", "An octant of a hollow ball (radii 0.5 and 1) is pushed by 0.05, 0.15 and 0.25 in four steps against a cup of the same neo-Hookean material (radii 1.02 and 1.5).", ""]
+    text += balls(mortise) + ["", "### A block slides over another one", "", "`tests/field/block_slides_on_rubber.prm`: from t = 2 on, four lengths of the block, over 22 faces of the longer one, of which each is less than one of its own.", ""]
+    write_part("deformed_contact.md", "three dimensions", "\n".join(text + slides(mortise)))
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(os.path.abspath(sys.argv[1]))
