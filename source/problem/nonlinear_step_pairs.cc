@@ -66,11 +66,17 @@ namespace mortise
     SceneLoad without_prescribed;
     discretisation.pair(discretisation.solutions(without_prescribed, x));
     discretisation.set_gaps(*data, *load);
+    begin_contact(known);
+    norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
+    paired_at = displacement;
+  }
+
+  void
+  NonlinearStep::begin_contact(const std::optional<ContactRecords> &known)
+  {
     *of_scene = std::make_unique<ContactStep>(
       run, discretisation, solver, preloads, known);
     contact = of_scene->get();
-    norm    = std::make_unique<ScaledResidual>(discretisation.linear_system());
-    paired_at = displacement;
   }
 
   NewtonReport
@@ -86,6 +92,8 @@ namespace mortise
         if (x.multiplier.size() != zero().size())
           x.multiplier = zero();
       }
+    else
+      begin_contact(last.contact);
     double       best  = std::numeric_limits<double>::infinity();
     unsigned int rises = 0;
     NewtonReport all;
@@ -93,7 +101,10 @@ namespace mortise
       {
         const NewtonReport one = improve(1, x);
         all.linear_iterations += one.linear_iterations;
-        all.linear = one.linear;
+        const SolveReport before = all.linear;
+        all.linear               = one.linear;
+        all.linear.setup_seconds += before.setup_seconds;
+        all.linear.solve_seconds += before.solve_seconds;
         if (one.iterations == 0)
           {
             all.residual  = one.residual;

@@ -38,14 +38,22 @@ namespace mortise
     if (!refresh)
       return;
     shows_flow = !elastic && may_yield;
-    solver.update();
-    if (!solver.is_ready())
+    // a new ContactStep makes preconditioners itself
+    if (contact == nullptr || !discretisation.interfaces().follow())
       {
-        discretisation.show_tangent(false);
         solver.update();
+        if (!solver.is_ready())
+          show_without_stress();
       }
     norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
     least_cost = 0.;
+  }
+
+  void
+  NonlinearStep::show_without_stress()
+  {
+    discretisation.show_tangent(false);
+    solver.update();
   }
 
   void
@@ -93,10 +101,20 @@ namespace mortise
         linear.rhs.pressure = r.pressure;
         linear.rhs.pressure += products.pressure;
       }
-    SystemVector solution;
-    SolveReport  report = contact->solve(*data, linear, solution);
-    if (!report.converged && discretisation.try_as_indefinite())
-      report = contact->solve(*data, linear, solution);
+    SystemVector solution = x; // from the iterate
+    solution.displacement = moved;
+    for (const unsigned int i : system.bulk->levels().front().constrained)
+      solution.displacement.local_element(i) = 0.;
+    const SystemVector start  = solution;
+    SolveReport        report = contact->solve(*data, linear, solution);
+    const bool         shows  = solver.is_ready();
+    if (!shows)
+      show_without_stress();
+    if (!report.converged && (!shows || discretisation.try_as_indefinite()))
+      {
+        solution = start;
+        report   = contact->solve(*data, linear, solution);
+      }
     x = solution;
     x.displacement += load->prescribed_at_nodes;
     for (const unsigned int i : hanging)

@@ -111,6 +111,9 @@ namespace mortise
     /// The same forces as in solve_bordered(), per time.
     SystemVector
     rate_of_forces(const SystemVector &x);
+    /// Where the tangent with its initial stress has no preconditioner.
+    void
+    show_without_stress();
     /// Of linear solves.
     void
     set_tolerance(double eta);
@@ -130,6 +133,9 @@ namespace mortise
     void
     pair_at(const Vector                        &displacement,
             const std::optional<ContactRecords> &known);
+    /// With the present pairs. Collective.
+    void
+    begin_contact(const std::optional<ContactRecords> &known);
     /// Set @p next and the forces of the load to those of the last iterate.
     void
     finish(const SystemVector &x, State &next);

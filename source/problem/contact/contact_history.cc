@@ -55,7 +55,6 @@ namespace mortise
   void
   ContactStep::resume(const SceneLoad &load, const SystemVector &x)
   {
-    set.start_from(closed_nodes(*first));
     if (!friction.empty())
       {
         friction.restore(*first);

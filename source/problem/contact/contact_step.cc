@@ -80,7 +80,13 @@ namespace mortise
     , increments(max_increments)
   {
     if (known)
-      first = known->nearest(positions);
+      {
+        first = known->nearest(positions);
+        std::vector<bool> closed;
+        for (const ContactRecord &record : *first)
+          closed.push_back(record.closed);
+        set.start_from(closed);
+      }
     if (!friction.empty())
       report_held();
   }
