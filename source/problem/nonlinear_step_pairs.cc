@@ -1,6 +1,7 @@
 // Newton's method of a NonlinearStep where interfaces follow the bodies.
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/error.h>
 #include <mortise/mortar/coupling.h>
 #include <mortise/problem/nonlinear_step.h>
 
@@ -113,7 +114,15 @@ namespace mortise
           }
         const auto known =
           by_face(discretisation.interfaces(), x.multiplier, run.comm);
-        pair_at(x.displacement, contact->records());
+        try
+          {
+            pair_at(x.displacement, contact->records());
+          }
+        catch (const InputError &error)
+          {
+            why = error.what();
+            break;
+          }
         x.multiplier = zero();
         take(known, discretisation.interfaces(), x.multiplier);
         all.residual = residual(x);

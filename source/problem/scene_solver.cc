@@ -176,7 +176,7 @@ namespace mortise
                       {},
                       {},
                       {}};
-    if (contact)
+    if (contact && contact->n_sets() > 0)
       {
         summary.solver->active_sets       = contact->n_sets();
         summary.solver->linear_iterations = contact->linear_iterations();

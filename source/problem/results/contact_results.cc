@@ -302,12 +302,13 @@ namespace mortise
       {
         if (interfaces.all()[i].law.is_one_sided())
           {
-            const double moved = relative_motion(step, i);
-            check_partners(step, i, moved);
-            ContactSummary             contact = contact_summary(step, i);
-            const InterfaceParameters &given   = interfaces.sides()[i];
-            contact.motion_max                 = moved;
-            contact.penetration_max            = step.penetration(i);
+            const double               moved = relative_motion(step, i);
+            const InterfaceParameters &given = interfaces.sides()[i];
+            if (!given.follows_bodies)
+              check_partners(step, i, moved);
+            ContactSummary contact  = contact_summary(step, i);
+            contact.motion_max      = moved;
+            contact.penetration_max = step.penetration(i);
             if (contact.undecided > 0)
               log.warning(
                 "interface " + given.name + ": at " +
