@@ -217,11 +217,16 @@ namespace mortise
   const GaussRule &
   PairIntegrator::Scratch::rule(const double distortion) const
   {
-    return gauss_rule(n_points > 0 ? n_points :
-                                     quadrature_points(degree_slave,
-                                                       degree_master,
-                                                       distortion,
-                                                       both_triangles()));
+    if (n_points > 0)
+      return gauss_rule(n_points);
+    const unsigned int n = quadrature_points(degree_slave,
+                                             degree_master,
+                                             distortion,
+                                             both_triangles());
+    return gauss_rule(
+      all_products ?
+        std::max(n, 2 * std::max(degree_slave, degree_master) + 1) :
+        n);
   }
 
 
@@ -280,6 +285,14 @@ namespace mortise
   PairIntegrator::set_points_per_direction(const unsigned int n)
   {
     scratch->n_points = n;
+  }
+
+
+
+  void
+  PairIntegrator::set_all_products(const bool all)
+  {
+    scratch->all_products = all;
   }
 
 

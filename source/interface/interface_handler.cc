@@ -154,6 +154,7 @@ namespace mortise
     IntegrationPoints points;
     integrator.set_points_per_direction(
       options.points_per_direction.value_or(0));
+    integrator.set_all_products(!slave_surface.undeformed.empty());
 
     Pass            pass;
     Clock::duration clipping(0);
