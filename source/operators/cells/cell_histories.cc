@@ -105,6 +105,10 @@ namespace mortise
     const int                 n_here = matrix.m(), n_there = matrix.n();
     const int                 n = history.size() / n_there;
     std::vector<double>       result(n_here * n);
+    if (std::all_of(history.begin(), history.end(), [](const double value) {
+          return value == 0.;
+        }))
+      return result; // nothing has happened there
     Teuchos::BLAS<int, double>().GEMM(Teuchos::NO_TRANS,
                                       Teuchos::NO_TRANS,
                                       n,
