@@ -347,7 +347,7 @@ namespace mortise
     const auto fields = complete(x, values, of_pressure);
     follower.reset();
     of_interfaces = SparseMatrix();
-    positive = true;
+    positive      = true;
     if (given != nullptr)
       {
         follower = std::make_unique<FollowerPressures>(*given);

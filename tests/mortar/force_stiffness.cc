@@ -118,10 +118,11 @@ namespace
     // gaps, and forces, beside their differences
     mortise::Vector closing(multiplier);
     system.constraint.vmult(closing, direction);
-    mortise::SparseMatrix stiffness = force_stiffness(discretisation.interfaces().all(),
-                                             multiplier,
-                                             system.owned_displacement,
-                                             comm);
+    mortise::SparseMatrix stiffness =
+      force_stiffness(discretisation.interfaces().all(),
+                      multiplier,
+                      system.owned_displacement,
+                      comm);
     mortise::Vector product(at.displacement);
     stiffness.vmult(product, direction);
     mortise::Vector forces[2], gaps[2];

@@ -355,7 +355,7 @@ namespace mortise
     std::unique_ptr<NodalPressure>         pressures; ///< in mixed form
     DirichletCellPressures                 dirichlet_cell_pressures;
     Vector                                 norm_diagonal;
-    std::unique_ptr<FollowerPressures>     follower; ///< in K, or null
+    std::unique_ptr<FollowerPressures>     follower;      ///< in K, or null
     SparseMatrix                           of_interfaces; ///< likewise
     bool                                   positive = true;
   };
