@@ -32,7 +32,9 @@ namespace mortise
     discretisation.linearise(
       x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
     linearised_at = x;
-    if (discretisation.interfaces().follow())
+    // the matrix that is factorised does not have it
+    if (discretisation.interfaces().follow() &&
+        discretisation.choice().method != SolverMethod::direct)
       discretisation.add_force_stiffness(x.multiplier);
     preloads.system_changed();
     if (!refresh)
