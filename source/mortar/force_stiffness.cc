@@ -3,8 +3,8 @@
 #include <mortise/mortar/coupled_faces.h>
 #include <mortise/mortar/force_stiffness.h>
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "constraint_columns.h"
 
@@ -97,7 +97,7 @@ namespace mortise
         , local(local)
         , coefficients(coefficients)
       {
-        polynomial.reinit(master_face, Point<dim>());
+        polynomial.reinit(master_face, master_face.frame.center);
       }
 
       FullMatrix<double>

@@ -83,8 +83,10 @@ namespace mortise
   }
 
   void
-  BulkSystem::add_follower_product_free(Vector &dst, const Vector &src) const
+  BulkSystem::add_following_forces_free(Vector &dst, const Vector &src) const
   {
+    if (!has_following_forces())
+      return;
     Vector sum;
     initialize(sum);
     if (of_interfaces.m() > 0)
@@ -103,9 +105,11 @@ namespace mortise
   }
 
   void
-  BulkSystem::add_follower_product(Vector &dst, const Vector &src) const
+  BulkSystem::add_following_forces(Vector &dst, const Vector &src) const
   {
-    add_follower_product_free(dst, src);
+    if (!has_following_forces())
+      return;
+    add_following_forces_free(dst, src);
     stiffness->clear_constrained(dst);
   }
 
@@ -126,8 +130,8 @@ namespace mortise
       }
     stiffness->clear_constrained(a);
     stiffness->clear_constrained(b);
-    add_follower_product(of_a, a);
-    add_follower_product(of_b, b);
+    add_following_forces(of_a, a);
+    add_following_forces(of_b, b);
     return std::fabs(a * of_b - b * of_a) <=
            rounding *
              (of_a.l2_norm() * b.l2_norm() + of_b.l2_norm() * a.l2_norm());

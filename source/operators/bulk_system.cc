@@ -127,8 +127,7 @@ namespace mortise
     if (!pressures)
       {
         stiffness->vmult_free(dst_u, u);
-        if (follower || of_interfaces.m() > 0)
-          add_follower_product_free(dst_u, u);
+        add_following_forces_free(dst_u, u);
         return;
       }
     stiffness->complete(u);
@@ -143,8 +142,7 @@ namespace mortise
     pressures->release(p);
     stiffness->gather(dst_u);
     pressures->gather(dst_p);
-    if (follower || of_interfaces.m() > 0)
-      add_follower_product_free(dst_u, u);
+    add_following_forces_free(dst_u, u);
   }
 
   void

@@ -7,6 +7,7 @@ the processor beside those of another binary on the same starts. --write FILE: s
 reads them. --nonlinear: those of nonlinear_starts.py."""
 import argparse
 import concurrent.futures
+import functools
 import json
 import math
 import os
@@ -238,9 +239,14 @@ def point_in(lot, settings):
     return body, point
 
 
+@functools.lru_cache(64)
+def compiled(expression):
+    return compile(expression.replace("^", "**"), "expression", "eval")
+
+
 def value_at(expression, point):
     names = {name: getattr(math, name) for name in ("sin", "cos", "exp", "tanh", "sqrt", "atan2", "pi")}
-    return eval(expression.replace("^", "**") if isinstance(expression, str) else expression, {**names, **dict(zip("xyz", point))})
+    return eval(compiled(expression), {**names, **dict(zip("xyz", point))})
 
 
 def start(seed, number, quantity=False, nonlinear=False):

@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
 """sliding.py MORTISE: contact that follows the bodies beside the same bodies with pairs that stay and with a tie. Writes its part of
 doc/measurements/deformed_contact.md: iterations by step and seconds of a ball that is pushed in a cup, and of a block that slides over another one."""
-import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 
+from contact import contact_of, last, outcome
 from page import write_part
-from processor import openblas
 
 STAR = 0.5 / (1 - 0.3**2)  # E = 1 on both sides
 
@@ -61,17 +59,13 @@ def ball(degree, n, push, law, sliding):
 
 
 def measure(mortise, text):
-    """The summary of a run."""
-    environment = dict(os.environ, OMP_NUM_THREADS="1", DEAL_II_NUM_THREADS="1", **openblas())
+    """The summary of a run, or None where it ends early."""
     with tempfile.TemporaryDirectory() as work:
-        scene = os.path.join(work, "scene.prm")
-        with open(scene, "w") as file:
+        scene = os.path.join(work, "scene")
+        with open(scene + ".prm", "w") as file:
             file.write(text)
-        run = subprocess.run([mortise, "--output", work, scene], env=environment, capture_output=True, text=True, timeout=600)
-        if run.returncode:
-            return None
-        with open(os.path.join(work, "summary.json")) as file:
-            return json.load(file)
+        code, summary, _ = outcome(mortise, scene)
+        return summary if code == 0 else None
 
 
 def newton(summary):
@@ -88,10 +82,13 @@ def balls(mortise):
     for degree, n in ((1, 4), (2, 2), (3, 1), (3, 2), (4, 1)):
         for push in (0.05, 0.15, 0.25):
             follows, stays, tied = (measure(mortise, ball(degree, n, push, law, sliding)) for law, sliding in (("contact", "finite"), ("contact", "small"), ("tie", None)))
-            pressure = follows["steps"][-1]["interfaces"][0]["contact"]["pressure_max"] / STAR if follows else float("nan")
-            seconds = [f"{one['timings_s']['total']:.2f}" if one else "-" for one in (follows, stays, tied)]
-            rows.append(f"| {degree} | {3 * n}, {2 * n} | {follows['steps'][-1]['dofs']['total'] if follows else ''} | {pressure:.2f} | {newton(follows)} | {newton(stays)} | {newton(tied)} | "
-                        + " | ".join(seconds) + f" | {100 * pairing_share(follows):.0f} % |" if follows else f"| {degree} | {3 * n}, {2 * n} | | | - | {newton(stays)} | {newton(tied)} | " + " | ".join(seconds) + " | |")
+            seconds = " | ".join(f"{one['timings_s']['total']:.2f}" if one else "-" for one in (follows, stays, tied))
+            unknowns, pressure, share = "", "", ""
+            if follows:
+                unknowns = last(follows)["dofs"]["total"]
+                pressure = f"{contact_of(last(follows))['pressure_max'] / STAR:.2f}"
+                share = f"{100 * pairing_share(follows):.0f} %"
+            rows.append(f"| {degree} | {3 * n}, {2 * n} | {unknowns} | {pressure} | {newton(follows)} | {newton(stays)} | {newton(tied)} | {seconds} | {share} |")
             print(rows[-1], flush=True)
     return rows
 

@@ -80,8 +80,7 @@ namespace mortise
     apply_stiffness(Vector &dst, const Vector &src) const
     {
       stiffness->vmult(dst, src);
-      if (follower || of_interfaces.m() > 0)
-        add_follower_product(dst, src);
+      add_following_forces(dst, src);
     }
 
     /// dst_u = K u + G^T p, dst_p = G u - C p, see BlockSystem. Collective.
@@ -330,11 +329,19 @@ namespace mortise
                                double value)> &set) const;
 
   private:
+    /// Those of pressures on deformed faces and of contact that follows the
+    /// bodies, which products with a tangent take.
+    bool
+    has_following_forces() const
+    {
+      return follower || of_interfaces.m() > 0;
+    }
+    /// Nothing without.
     void
-    add_follower_product(Vector &dst, const Vector &src) const;
+    add_following_forces(Vector &dst, const Vector &src) const;
     /// The same with constrained components.
     void
-    add_follower_product_free(Vector &dst, const Vector &src) const;
+    add_following_forces_free(Vector &dst, const Vector &src) const;
     bool
     follower_is_symmetric() const;
     void
