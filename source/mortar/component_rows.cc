@@ -115,12 +115,40 @@ namespace mortise
     };
   } // namespace
 
+  namespace
+  {
+    /// All rows of nodes, with the entries @p own of @p rows by face.
+    std::vector<MultiplierSpace::FaceMultipliers>
+    by_face(const RowsOfNodes &rows, const bool have_own_entries)
+    {
+      std::vector<MultiplierSpace::FaceMultipliers> result;
+      for (const std::vector<Index> &of_face : rows.rows)
+        {
+          MultiplierSpace::FaceMultipliers &face = result.emplace_back();
+          const unsigned int                n    = of_face.size() / dim;
+          face.begin                             = {0};
+          face.frames.assign(n, Frame(unit_symmetric_tensor<dim>()));
+          for (unsigned int r = 0; r < dim * n; ++r)
+            {
+              face.index.push_back(of_face[r]);
+              face.weight.push_back(1.);
+              face.is_represented.push_back(r >= n && !have_own_entries);
+              face.begin.push_back(r + 1);
+            }
+        }
+      return result;
+    }
+  } // namespace
+
   unsigned int
   MultiplierSpace::n_component_rows(const BodySurface &slave) const
   {
-    return n_directions == dim ?
-             n_owned() :
-             RowsOfNodes(body, slave, numbered.by_face, directed).n_owned();
+    const auto n = [&](const bool of_directed) {
+      return RowsOfNodes(body, slave, numbered.by_face, of_directed).n_owned();
+    };
+    return n_directions == 1 ? n(directed) :
+           directed          ? n(true) + n(false) :
+                               n_owned();
   }
 
   MultiplierSpace::ComponentRows
@@ -128,43 +156,55 @@ namespace mortise
                                   const Index        first) const
   {
     ComponentRows result;
-    if (n_directions == dim)
+    if (n_directions == dim && !directed)
       {
         result.rows = make_rows(slave, first);
         for (unsigned int i = 0; i < n_owned(); ++i)
           result.frames.emplace_back(first_number + i, first + i, 1.);
         return result;
       }
-    RowsOfNodes of_nodes(body, slave, numbered.by_face, directed);
+    const bool  has_across = n_directions == dim;
+    RowsOfNodes of_nodes(body, slave, numbered.by_face, directed),
+      across(body, slave, numbered.by_face, false);
     of_nodes.number(first);
-    result.rows.owned = of_nodes.owned;
+    result.rows.owned   = of_nodes.owned;
+    result.rows.by_face = by_face(of_nodes, directed);
+    if (has_across)
+      {
+        across.number(first + of_nodes.owned.size());
+        result.rows.owned.insert(result.rows.owned.end(),
+                                 across.owned.begin(),
+                                 across.owned.end());
+        result.across = by_face(across, false);
+      }
     for (unsigned int s = 0; s < numbered.by_face.size(); ++s)
       {
-        const FaceMultipliers &own = numbered.by_face[s];
-        const unsigned int     n   = own.n_nodes();
-        FaceMultipliers        rows;
-        rows.begin = {0};
-        rows.frames.assign(n, Frame(unit_symmetric_tensor<dim>()));
-        for (unsigned int r = 0; r < dim * n; ++r)
-          {
-            rows.index.push_back(of_nodes.rows[s][r]);
-            rows.weight.push_back(1.);
-            rows.is_represented.push_back(r >= n && !directed);
-            rows.begin.push_back(r + 1);
-          }
+        const FaceMultipliers                    &own = numbered.by_face[s];
+        const unsigned int                        n   = own.n_nodes();
         std::map<std::pair<Index, Index>, double> of_face;
         const Tensor<1, dim>                      ones({1., 1., 1.});
-        for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int r = 0; r + 1 < own.begin.size(); ++r)
           own.for_each_direction(
-            k, [&](const unsigned int i, const Tensor<1, dim> &direction) {
-              for (unsigned int e = own.begin[k]; e < own.begin[k + 1]; ++e)
+            r, [&](const unsigned int i, const Tensor<1, dim> &direction) {
+              Tensor<1, dim> along = directed ? ones : direction, rest;
+              if (has_across)
+                {
+                  const double part = normals[s][i] * direction;
+                  along             = part * ones;
+                  rest              = direction - part * normals[s][i];
+                }
+              for (unsigned int e = own.begin[r]; e < own.begin[r + 1]; ++e)
                 for (unsigned int c = 0; c < dim; ++c)
-                  of_face[{own.index[e], of_nodes.rows[s][c * n + i]}] +=
-                    own.weight[e] * (directed ? ones : direction)[c];
+                  {
+                    of_face[{own.index[e], of_nodes.rows[s][c * n + i]}] +=
+                      own.weight[e] * along[c];
+                    if (has_across)
+                      of_face[{own.index[e], across.rows[s][c * n + i]}] +=
+                        own.weight[e] * rest[c];
+                  }
             });
         for (const auto &[place, weight] : of_face)
           result.frames.emplace_back(place.first, place.second, weight);
-        result.rows.by_face.push_back(std::move(rows));
       }
     return result;
   }

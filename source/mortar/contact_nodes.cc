@@ -211,6 +211,24 @@ namespace mortise
                      });
     }
 
+    /// int psi_i (x_master - x_slave) of slave face @p s along @p direction.
+    double
+    opening(const Coupling       &coupling,
+            const unsigned int    s,
+            const unsigned int    i,
+            const Tensor<1, dim> &direction)
+    {
+      const LocalCoupling &local = coupling.local[s];
+      const double         all   = local.gap_moment[i] * direction;
+      if (!local.is_directed())
+        return all;
+      if (!coupling.law.has_friction())
+        return local.distance_moment[i];
+      const Tensor<1, dim> &normal = coupling.frames[s][i][0];
+      return all + (normal * direction) *
+                     (local.distance_moment[i] - local.gap_moment[i] * normal);
+    }
+
     std::vector<Vector>
     sums_by_multiplier(const Coupling &coupling,
                        const IndexSet &owned_multiplier,
@@ -241,9 +259,7 @@ namespace mortise
                         }
                       sums[area_sum](index) += w * own * along;
                       sums[gap_sum](index) +=
-                        w * (local.is_directed() ?
-                               local.distance_moment[i] :
-                               local.gap_moment[i] * direction);
+                        w * opening(coupling, s, i, direction);
                       sums[stiffness_sum](index) +=
                         w * own * along * local.penalty;
                       sums[pressure_sum](index) +=
@@ -362,7 +378,6 @@ namespace mortise
     for (const auto &of_node : multipliers_of_nodes(*coupling.multipliers))
       {
         ContactNode   &node = result.emplace_back();
-        Tensor<1, dim> gap;
         unsigned int   own = local(of_node.front());
         for (const unsigned int k : of_node)
           {
@@ -374,7 +389,7 @@ namespace mortise
             node.pressures[r]       = sums[pressure_sum].local_element(i);
             node.pressed_areas[r]   = sums[pressed_sum].local_element(i);
             node.pressure_forces[r] = vector_of(sums, pressure_force_sum, i);
-            gap[r] = sums[gap_sum].local_element(i) / node.areas[r];
+            node.opening[r] = sums[gap_sum].local_element(i) / node.areas[r];
             // others have a part of a rim as well
             if (node.areas[r] < sums[area_sum].local_element(own))
               own = i;
@@ -390,7 +405,6 @@ namespace mortise
             node.normal[0] = 1.;
             node.kinematic = unit_symmetric_tensor<dim>();
           }
-        node.gap = node.normal * gap;
       }
     return result;
   }

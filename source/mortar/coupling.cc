@@ -90,10 +90,12 @@ namespace mortise
     }
 
     /// [D, -M] by node, once for the components that share their entries.
+    /// @p across: see MultiplierSpace::ComponentRows, by coupling.
     SparseMatrix
     assemble_blocks(const std::vector<Coupling> &couplings,
                     const RowsByFace            &all_rows,
-                    const CouplingPartition     &partition)
+                    const CouplingPartition     &partition,
+                    const RowsByFace            &across = {})
     {
       RowAssembler assembler(partition.owned_multiplier,
                              partition.owned_displacement);
@@ -102,8 +104,8 @@ namespace mortise
       const auto for_each_block = [&](const bool values, const auto &visit) {
         for_each_face(
           couplings, [&](const Coupling &coupling, const unsigned int s) {
-            const ConstraintRows rows(
-              (*all_rows[&coupling - couplings.data()])[s]);
+            const unsigned int   number = &coupling - couplings.data();
+            ConstraintRows       rows((*all_rows[number])[s]);
             const LocalCoupling &local = coupling.local[s];
             const FaceTrace     &slave = coupling.interface->slave().traces[s];
             const auto           for_each_component = [&](const auto &of) {
@@ -143,7 +145,9 @@ namespace mortise
                     coupling.interface->master_traces()[partner.master],
                     partner.directed,
                     -1.);
-                return;
+                if (across[number]->empty())
+                  return;
+                rows = ConstraintRows((*across[number])[s]);
               }
             if (local.is_dual())
               {
@@ -186,21 +190,6 @@ namespace mortise
     }
   } // namespace
 
-  namespace
-  {
-    IndexSet
-    nodes_of(const IndexSet &displacements)
-    {
-      IndexSet nodes(displacements.size() / dim);
-      if (displacements.n_elements() > 0)
-        nodes.add_range(displacements.nth_index_in_set(0) / dim,
-                        (displacements.nth_index_in_set(0) +
-                         displacements.n_elements()) /
-                          dim);
-      return nodes;
-    }
-  } // namespace
-
   CouplingMatrix
   assemble_by_node(const std::vector<Coupling> &couplings,
                    const CouplingPartition     &partition,
@@ -232,7 +221,7 @@ namespace mortise
     const Index    first = mine > 0 ? owned.nth_index_in_set(0) : 0;
 
     std::vector<MultiplierSpace::ComponentRows> all;
-    RowsByFace                                  by_face;
+    RowsByFace                                  by_face, across;
     std::vector<SparseMatrix::Entry>            frames;
     all.reserve(couplings.size());
     for (const Coupling &coupling : couplings)
@@ -241,11 +230,15 @@ namespace mortise
           coupling.multipliers->component_rows(coupling.interface->slave(),
                                                first + rows.size()));
         by_face.push_back(&all.back().rows.by_face);
+        across.push_back(&all.back().across);
         add_rows(all.back().rows.owned);
         for (const auto &[multiplier, row, weight] : all.back().frames)
           frames.push_back({multiplier, row, weight});
       }
-    return {assemble_blocks(couplings, by_face, {nodes, owned, partition.comm}),
+    return {assemble_blocks(couplings,
+                            by_face,
+                            {nodes, owned, partition.comm},
+                            across),
             rows,
             SparseMatrix(partition.owned_multiplier,
                          owned,

@@ -213,6 +213,29 @@ namespace mortise
     };
   } // namespace
 
+  namespace
+  {
+    /// By slave face and node.
+    std::vector<std::vector<double>>
+    pressures(const Coupling &coupling,
+              const Vector   &multiplier,
+              const MPI_Comm  comm)
+    {
+      auto result = values_by_row(coupling, multiplier, comm);
+      if (!coupling.law.has_friction())
+        return result;
+      for (unsigned int s = 0; s < result.size(); ++s)
+        {
+          const unsigned int  n = coupling.frames[s].size();
+          std::vector<double> of_nodes(n, 0.);
+          for (unsigned int r = 0; r < result[s].size(); ++r)
+            of_nodes[r % n] += result[s][r] * coupling.frames[s][r % n][0][r / n];
+          result[s] = of_nodes;
+        }
+      return result;
+    }
+  } // namespace
+
   SparseMatrix
   force_stiffness(const std::vector<Coupling> &couplings,
                   const Vector                &multiplier,
@@ -231,7 +254,7 @@ namespace mortise
         coefficients.emplace_back();
         if (!coupling.is_directed())
           continue;
-        coefficients.back() = values_by_row(coupling, multiplier, comm);
+        coefficients.back() = pressures(coupling, multiplier, comm);
         const InterfaceHandler &interface = *coupling.interface;
         for (unsigned int s = 0; s < coupling.local.size(); ++s)
           if (is_loaded(coefficients.back()[s]))

@@ -247,9 +247,14 @@ namespace mortise
                          mixes_components(of_face));
     if (n_directions == dim)
       for (auto &of_face : frames)
-        std::fill(of_face.begin(),
-                  of_face.end(),
-                  Frame(unit_symmetric_tensor<dim>()));
+        {
+          normals.emplace_back();
+          for (Frame &frame : of_face)
+            {
+              normals.back().push_back(frame[0]);
+              frame = Frame(unit_symmetric_tensor<dim>());
+            }
+        }
     const std::vector<MultiplierFace> faces = collect_multiplier_faces(
       body,
       slave,

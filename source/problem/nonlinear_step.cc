@@ -83,6 +83,14 @@ namespace mortise
     return rest;
   }
 
+  void
+  NonlinearStep::set_prescribed(SystemVector &x) const
+  {
+    for (const unsigned int i : prescribed)
+      x.displacement.local_element(i) =
+        load->prescribed_at_nodes.local_element(i);
+  }
+
   SystemVector
   NonlinearStep::lifted(const SystemVector &given, const Vector &rest) const
   {
@@ -320,6 +328,17 @@ namespace mortise
     return solve_newton(*this, options, x);
   }
 
+  SystemVector
+  NonlinearStep::free_part(const SystemVector &x) const
+  {
+    SystemVector result = x;
+    result.displacement -= load->prescribed_at_nodes;
+    for (const unsigned int i :
+         discretisation.linear_system().bulk->levels().front().constrained)
+      result.displacement.local_element(i) = 0.;
+    return result;
+  }
+
   void
   NonlinearStep::finish(const SystemVector &x, State &next)
   {
@@ -329,10 +348,7 @@ namespace mortise
         bulk.forces_of(*load->follower_pressures, x.displacement);
     next.displacement = x.displacement;
     next.history      = response.history;
-    next.solution     = x;
-    next.solution.displacement -= load->prescribed_at_nodes;
-    for (const unsigned int i : bulk.levels().front().constrained)
-      next.solution.displacement.local_element(i) = 0.;
+    next.solution     = free_part(x);
     if (contact == nullptr)
       return;
     if (newton.converged)

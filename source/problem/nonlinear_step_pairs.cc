@@ -4,8 +4,10 @@
 #include <mortise/base/error.h>
 #include <mortise/mortar/coupling.h>
 #include <mortise/problem/nonlinear_step.h>
+#include <mortise/solvers/anderson.h>
 
 #include <algorithm>
+#include <deque>
 #include <limits>
 #include <map>
 #include <string>
@@ -23,6 +25,9 @@ namespace mortise
     /// what numbers of points of integration leave that change with the pairs.
     constexpr double       rounding_of_pairs = 1e-6;
     constexpr unsigned int most_of_rounding  = 3;
+
+    /// Of residuals from one iteration to the next.
+    constexpr double slow_contraction = 0.1;
 
     bool
     are_equal(const Vector &a, const Vector &b, const MPI_Comm comm)
@@ -47,6 +52,79 @@ namespace mortise
       return result;
     }
 
+    /// Anderson's acceleration of iterations that contract slowly, since the
+    /// tangent lacks terms: of friction, and where sides are apart.
+    class Acceleration
+    {
+    public:
+      /// @p weights: of the squares of displacements.
+      explicit Acceleration(const Vector &weights)
+        : weights(weights)
+      {}
+
+      /// An iteration led from the displacement @p given to @p result with
+      /// @p multipliers. Collective.
+      void
+      add(const Vector       &given,
+          const SystemVector &result,
+          const ByFace       &multipliers)
+      {
+        Step step{result, multipliers, result.displacement};
+        step.way -= given;
+        steps.push_back(std::move(step));
+        if (steps.size() > most_steps)
+          steps.pop_front();
+      }
+
+      void
+      forget()
+      {
+        steps.clear();
+      }
+
+      /// The next iterate, the last result before. Collective.
+      void
+      apply(SystemVector &x, ByFace &multipliers) const
+      {
+        const unsigned int n = steps.size();
+        FullMatrix<double> products(n, n);
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            Vector scaled = steps[a].way;
+            scaled.scale(weights);
+            for (unsigned int b = a; b < n; ++b)
+              products(a, b) = products(b, a) = scaled * steps[b].way;
+          }
+        const std::vector<double> factors = anderson_weights(products);
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            const double factor = factors[a] - (a + 1 == n ? 1. : 0.);
+            x.displacement.add(factor, steps[a].result.displacement);
+            if (x.pressure.size() > 0)
+              x.pressure.add(factor, steps[a].result.pressure);
+            for (const auto &[name, of_faces] : steps[a].multipliers)
+              if (const auto found = multipliers.find(name);
+                  found != multipliers.end())
+                for (unsigned int s = 0; s < of_faces.size(); ++s)
+                  for (unsigned int i = 0; i < of_faces[s].size(); ++i)
+                    found->second[s][i] += factor * of_faces[s][i];
+          }
+      }
+
+    private:
+      static constexpr unsigned int most_steps = 4;
+
+      struct Step
+      {
+        SystemVector result;
+        ByFace       multipliers;
+        Vector       way;
+      };
+
+      const Vector     &weights;
+      std::deque<Step>  steps;
+    };
+
     /// Those of patches that met no master before stay as they are.
     void
     take(const ByFace &known, const Pairing &pairing, Vector &multiplier)
@@ -59,15 +137,13 @@ namespace mortise
   } // namespace
 
   void
-  NonlinearStep::pair_at(const Vector                        &displacement,
-                         const std::optional<ContactRecords> &known)
+  NonlinearStep::pair_at(const Vector &displacement)
   {
     SystemVector x = discretisation.linear_system().zero_vector();
     x.displacement = displacement;
     SceneLoad without_prescribed;
     discretisation.pair(discretisation.solutions(without_prescribed, x));
     discretisation.set_gaps(*data, *load);
-    begin_contact(known);
     norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
     paired_at = displacement;
   }
@@ -80,6 +156,21 @@ namespace mortise
     contact = of_scene->get();
   }
 
+  void
+  NonlinearStep::go_on(const ContactRecords &known,
+                       const State          &last,
+                       const SlipOrigin     &origin,
+                       const SystemVector   &x)
+  {
+    begin_contact(known);
+    const bool has_last = last.displacement.size() > 0;
+    contact->follow(has_last ? last.contact : std::nullopt,
+                    origin,
+                    *data,
+                    *load,
+                    free_part(x));
+  }
+
   NewtonReport
   NonlinearStep::follow(const State &last, SystemVector &x)
   {
@@ -88,19 +179,27 @@ namespace mortise
     };
     if (!are_equal(paired_at, x.displacement, run.comm))
       {
-        pair_at(x.displacement, last.contact);
+        pair_at(x.displacement);
         // those of the last state belong to this pairing
         if (x.multiplier.size() != zero().size())
           x.multiplier = zero();
       }
-    else
-      begin_contact(last.contact);
-    double       best  = std::numeric_limits<double>::infinity();
+    const SlipOrigin origin(discretisation.interfaces().all(),
+                            discretisation.linear_system().owned_displacement,
+                            discretisation.displacement_of_pairing(),
+                            run.comm);
+    begin_contact(last.contact);
+    if (last.displacement.size() > 0 && last.contact)
+      go_on(*last.contact, last, origin, x);
+    Acceleration acceleration(discretisation.linear_system().bulk->diagonal());
+    double       best  = std::numeric_limits<double>::infinity(),
+           contraction = 0.;
     unsigned int rises = 0;
     NewtonReport all;
     while (all.iterations < most_pairings && rises < most_useless)
       {
-        const NewtonReport one = improve(1, x);
+        const Vector       given = x.displacement;
+        const NewtonReport one   = improve(1, x);
         all.linear_iterations += one.linear_iterations;
         const SolveReport before = all.linear;
         all.linear               = one.linear;
@@ -112,11 +211,19 @@ namespace mortise
             all.converged = one.converged;
             break;
           }
-        const auto known =
+        auto known =
           by_face(discretisation.interfaces(), x.multiplier, run.comm);
+        const ContactRecords reached =
+          contact->records_of_iterate(*load, free_part(x));
+        acceleration.add(given, x, known);
+        if (contraction > slow_contraction)
+          {
+            acceleration.apply(x, known);
+            set_prescribed(x);
+          }
         try
           {
-            pair_at(x.displacement, contact->records());
+            pair_at(x.displacement);
           }
         catch (const InputError &error)
           {
@@ -125,8 +232,11 @@ namespace mortise
           }
         x.multiplier = zero();
         take(known, discretisation.interfaces(), x.multiplier);
-        all.residual = residual(x);
+        go_on(reached, last, origin, x);
+        const double before_that = all.residual;
+        all.residual             = residual(x);
         print(++all.iterations, all.residual);
+        contraction   = all.residual / before_that;
         rises         = all.residual < 0.5 * best ? 0 : rises + 1;
         best          = std::min(best, all.residual);
         all.converged = all.residual <= tolerance() ||

@@ -103,11 +103,8 @@ namespace mortise
         linear.rhs.pressure = r.pressure;
         linear.rhs.pressure += products.pressure;
       }
-    SystemVector solution = x; // from the iterate
-    solution.displacement = moved;
-    for (const unsigned int i : system.bulk->levels().front().constrained)
-      solution.displacement.local_element(i) = 0.;
-    const SystemVector start  = solution;
+    SystemVector       solution = free_part(x); // from the iterate
+    const SystemVector start    = solution;
     SolveReport        report = contact->solve(*data, linear, solution);
     const bool         shows  = solver.is_ready();
     if (!shows)
@@ -154,9 +151,7 @@ namespace mortise
     else if (report.converged)
       set_time(x.time + dx.time);
     add_scaled(x, 1., dx);
-    for (const unsigned int i : prescribed) // without rounding
-      x.displacement.local_element(i) =
-        load->prescribed_at_nodes.local_element(i);
+    set_prescribed(x);
     last_iterations = report.iterations;
     if (!report.converged)
       why = "the linear solver does not converge";

@@ -178,7 +178,7 @@ namespace mortise::testing
         verdict(what + ": gaps 1e-12",
                 largest(*of,
                         [&](const auto &node) {
-                          return std::fabs(node.gap - gap);
+                          return std::fabs(node.gap() - gap);
                         }),
                 1e-12);
         verdict(what + ": normals 1e-12",
@@ -234,7 +234,7 @@ namespace mortise::testing
         {worst,
          nodes[i].position.distance(plain[i].position),
          std::fabs(nodes[i].area - plain[i].area),
-         std::fabs(nodes[i].gap - plain[i].gap),
+         std::fabs(nodes[i].gap() - plain[i].gap()),
          std::fabs(nodes[i].complementarity / plain[i].complementarity - 1.)});
     verdict(name + ": places, areas, gaps as without friction 1e-12",
             Utilities::MPI::max(worst, MPI_COMM_WORLD),

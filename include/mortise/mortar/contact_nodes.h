@@ -49,12 +49,19 @@ namespace mortise
     /// the force that presses.
     std::array<double, dim>                 pressures{}, pressed_areas{};
     std::array<dealii::Tensor<1, dim>, dim> pressure_forces;
-    /// Mean of the mesh gap n . (x_master - x_slave), a length; negative on
-    /// penetration.
-    double gap = 0.;
+    /// By multiplier, the mean of x_master - x_slave in its direction.
+    dealii::Tensor<1, dim> opening;
     /// Complementarity parameter c, about E / h of the softer side, force per
     /// volume.
     double complementarity = 0.;
+
+    /// Mean of the mesh gap n . (x_master - x_slave), a length; negative on
+    /// penetration.
+    double
+    gap() const
+    {
+      return normal * opening;
+    }
 
     bool
     has_normal() const

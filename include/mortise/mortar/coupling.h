@@ -21,6 +21,9 @@ namespace mortise
   struct Coupling
   {
     InterfaceLaw law;
+    /// Among the interfaces of the scene and the patches of their slaves, with
+    /// those that meet no master.
+    unsigned int number       = 0;
     bool         is_displaced = false; ///< its bodies, on all ranks
     std::unique_ptr<InterfaceHandler> interface;
     std::vector<std::vector<Frame>>   frames; ///< see slave_frames()
@@ -33,7 +36,9 @@ namespace mortise
     bool
     is_directed() const
     {
-      return is_displaced && law.constrained == ConstrainedDirections::normal;
+      return is_displaced &&
+             (law.constrained == ConstrainedDirections::normal ||
+              law.is_one_sided());
     }
   };
 

@@ -184,6 +184,9 @@ namespace mortise
     struct ComponentRows
     {
       Rows rows; ///< of all directions, in numbers of component rows
+      /// By face: those of tractions across the normals, where
+      /// LocalCoupling::directed is that of the others; else empty.
+      std::vector<FaceMultipliers> across;
       /// (multiplier, component row, weight), repeated for each face.
       std::vector<std::tuple<Index, Index, double>> frames;
     };
@@ -207,6 +210,8 @@ namespace mortise
     unsigned int      n_directions;         ///< dim, or 1: along the normals
     bool              one_sided;
     bool              directed; ///< see LocalCoupling::is_directed()
+    /// By face and node, if tractions across them have multipliers, too.
+    std::vector<std::vector<dealii::Tensor<1, dim>>> normals;
     std::vector<bool> has_dual; ///< by face
     /// By face: have all components the same functions, since the pressure at a
     /// node of friction is a sum of several?

@@ -128,14 +128,22 @@ namespace mortise
     /// Iterations of which each has the pairs of the bodies at its start.
     NewtonReport
     follow(const State &last, SystemVector &x);
-    /// Pair the bodies where they are at @p displacement, with contact as
-    /// @p known. Collective.
+    /// Pair the bodies where they are at @p displacement. Collective.
     void
-    pair_at(const Vector                        &displacement,
-            const std::optional<ContactRecords> &known);
-    /// With the present pairs. Collective.
+    pair_at(const Vector &displacement);
+    /// With the present pairs, contact as @p known. Collective.
     void
     begin_contact(const std::optional<ContactRecords> &known);
+    /// The same at the iterate @p x of a step from @p last on, where pairs were
+    /// those of @p origin. Collective.
+    void
+    go_on(const ContactRecords &known,
+          const State          &last,
+          const SlipOrigin     &origin,
+          const SystemVector   &x);
+    /// Without prescribed displacements.
+    SystemVector
+    free_part(const SystemVector &x) const;
     /// Set @p next and the forces of the load to those of the last iterate.
     void
     finish(const SystemVector &x, State &next);
@@ -164,6 +172,9 @@ namespace mortise
     /// What is left of prescribed displacements.
     Vector
     rest_of_prescribed(const SystemVector &x) const;
+    /// Without what rounding leaves of the rest.
+    void
+    set_prescribed(SystemVector &x) const;
     /// With arc-length control: let the load be that at @p time.
     void
     set_time(double time);

@@ -28,6 +28,38 @@ namespace mortise
     return {positions, friction.records(set.active()), run.comm};
   }
 
+  ContactRecords
+  ContactStep::records_of_iterate(const SceneLoad    &load,
+                                  const SystemVector &x) const
+  {
+    auto result = friction.records(set.active());
+    if (!friction.empty())
+      friction.set_iterate(x.multiplier,
+                           discretisation.weighted_gaps(load, x),
+                           result);
+    return {positions, result, run.comm};
+  }
+
+  void
+  ContactStep::follow(const std::optional<ContactRecords> &accepted,
+                      const SlipOrigin                    &origin,
+                      const SceneData                     &data,
+                      const SceneLoad                     &load,
+                      const SystemVector                  &x)
+  {
+    if (friction.empty())
+      return;
+    if (accepted)
+      friction.restore(accepted->nearest(positions));
+    friction.set_origin(
+      discretisation.weighted_gaps(load, x),
+      origin.openings(discretisation.interfaces().all(),
+                      discretisation.displacement_of_pairing(),
+                      discretisation.linear_system().owned_multiplier));
+    friction.begin(data);
+    friction.guess(*first);
+  }
+
   void
   ContactStep::remember(Solved now)
   {

@@ -35,20 +35,6 @@ namespace mortise
     /// Of it, from one to the next where signs are not known yet.
     constexpr double finer = 1e-2;
 
-    NodePositions
-    node_positions(const Discretisation &discretisation)
-    {
-      NodePositions positions;
-      const auto   &all = discretisation.interfaces().all();
-      for (unsigned int i = 0; i < all.size(); ++i)
-        for (const ContactNode &node : all[i].contact_nodes)
-          {
-            positions.surfaces.push_back(1 + i);
-            positions.points.push_back(node.position);
-          }
-      return positions;
-    }
-
     std::vector<double>
     complementarity_parameters(const Discretisation &discretisation)
     {
@@ -57,6 +43,19 @@ namespace mortise
            discretisation.interfaces().contact_nodes())
         result.push_back(node->complementarity);
       return result;
+    }
+
+    NodePositions
+    node_positions(const Discretisation &discretisation)
+    {
+      NodePositions positions;
+      for (const Coupling &coupling : discretisation.interfaces().all())
+        for (const ContactNode &node : coupling.contact_nodes)
+          {
+            positions.surfaces.push_back(1 + coupling.number);
+            positions.points.push_back(node.position);
+          }
+      return positions;
     }
   } // namespace
 

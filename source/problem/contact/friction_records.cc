@@ -17,6 +17,37 @@ namespace mortise
         }
   }
 
+  void
+  FrictionSet::set_origin(const Vector                      &weighted_gaps,
+                          const std::vector<Tensor<1, dim>> &openings)
+  {
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (Node &node = nodes[i]; node.has_friction)
+        {
+          const ContactNode   &of     = *node.contact;
+          const Tensor<1, dim> normal = of.kinematic_normal(),
+                               moved =
+                                 of.opening - openings[i];
+          node.origin = Tensor<1, dim>();
+          node.origin =
+            slip(node, weighted_gaps) - (moved - (normal * moved) * normal);
+        }
+  }
+
+  void
+  FrictionSet::set_iterate(const Vector               &lambda,
+                           const Vector               &weighted_gaps,
+                           std::vector<ContactRecord> &records) const
+  {
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (nodes[i].has_friction)
+        {
+          const ContactNode &of = *nodes[i].contact;
+          records[i].traction   = of.in_space(of.traction(lambda.begin()));
+          records[i].increment  = of.in_space(slip(nodes[i], weighted_gaps));
+        }
+  }
+
   std::vector<ContactRecord>
   FrictionSet::records(const std::vector<bool> &closed) const
   {
@@ -61,6 +92,7 @@ namespace mortise
   void
   FrictionSet::guess(const std::vector<ContactRecord> &records)
   {
+    stick();
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (Node &node = nodes[i];
           node.has_friction && records[i].slips && node.contact->has_normal())

@@ -1,11 +1,10 @@
 // See friction_set.h.
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
-
 #include <mortise/base/error.h>
 #include <mortise/contact/slip_edge.h>
 #include <mortise/problem/contact/friction_set.h>
+#include <mortise/solvers/anderson.h>
 
 #include <algorithm>
 #include <array>
@@ -163,42 +162,23 @@ namespace mortise
     bounds.push_back({{std::move(given), after}});
     if (bounds.size() > max_depth)
       bounds.erase(bounds.begin());
-    const unsigned int m = bounds.size() - 1;
-    if (m == 0)
-      return;
-    // differences of the corrections from the newest, and the newest
-    const auto correction = [&](const unsigned int k, const unsigned int i) {
-      return bounds[k][1][i] - bounds[k][0][i];
-    };
-    std::vector<double> sums(m * (m + 1), 0.);
+    const unsigned int  n = bounds.size();
+    std::vector<double> sums(n * n, 0.);
     for (unsigned int i = 0; i < nodes.size(); ++i)
-      for (unsigned int a = 0; a < m; ++a)
-        {
-          const double difference = correction(m, i) - correction(a, i);
-          sums[m * m + a] +=
-            nodes[i].contact->area * difference * correction(m, i);
-          for (unsigned int b = 0; b < m; ++b)
-            sums[m * a + b] += nodes[i].contact->area * difference *
-                               (correction(m, i) - correction(b, i));
-        }
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int b = 0; b < n; ++b)
+          sums[n * a + b] += nodes[i].contact->area *
+                             (bounds[a][1][i] - bounds[a][0][i]) *
+                             (bounds[b][1][i] - bounds[b][0][i]);
     Utilities::MPI::sum(sums, run.comm, sums);
-    LAPACKFullMatrix<double> products(m, m);
-    dealii::Vector<double>   weights(m);
-    for (unsigned int a = 0; a < m; ++a)
-      {
-        weights(a) = sums[m * m + a];
-        for (unsigned int b = 0; b < m; ++b)
-          products(a, b) = sums[m * a + b];
-      }
-    products.compute_inverse_svd(1e-12);
-    dealii::Vector<double> solved(m);
-    products.vmult(solved, weights);
+    const std::vector<double> weights =
+      anderson_weights(FullMatrix<double>(n, n, sums.data()));
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (nodes[i].law.bound > 0.)
         {
-          double bound = after[i];
-          for (unsigned int a = 0; a < m; ++a)
-            bound -= solved(a) * (after[i] - bounds[a][1][i]);
+          double bound = 0.;
+          for (unsigned int a = 0; a < n; ++a)
+            bound += weights[a] * bounds[a][1][i];
           nodes[i].law.bound = std::max(0.5 * after[i], bound);
         }
   }

@@ -47,12 +47,10 @@ namespace mortise
       const auto        refuse = [&](const std::string &with) {
         parameters.fail(path, "finite with " + with, "small");
       };
-      if (interface.law != Law::contact)
+      if (!is_one_sided(interface.law))
         refuse("Law = " + name_of(interface.law));
       if (!is_nonlinear)
         refuse("bodies of linear laws alone");
-      if (has_friction(interface))
-        refuse("a Friction coefficient");
       if (interface.ignores_mesh_gap)
         refuse("Mesh gap = ignored");
       if (parameters.adaptivity.target_error)

@@ -76,7 +76,7 @@ namespace mortise
         system.constraint =
           assemble_by_node(all,
                            partition,
-                           pairing->slide() || pairing->have_springs());
+                           pairing->have_frames());
         system.constraint.constrain(system.bulk->levels().front().constrained);
         if (pairing->have_springs())
           system.spring_compliance = assemble_compliance(all, partition);

@@ -92,7 +92,7 @@ namespace mortise
           for (unsigned int r = 0; r < node.n_multipliers; ++r)
             {
               const unsigned int m = node.multipliers[r];
-              rhs.begin()[m] += node.areas[r] * node.gap * node.normal[r];
+              rhs.begin()[m] += node.areas[r] * node.gap() * node.normal[r];
               if (closed.size() > 0 && coupling.is_displaced)
                 rhs.begin()[m] += closed.begin()[m];
             }

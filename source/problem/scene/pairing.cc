@@ -130,7 +130,8 @@ namespace mortise
                          given.multiplier == "dual" ? MultiplierBasis::dual :
                                                       MultiplierBasis::standard,
                          !law.is_compliant() && !given.is_support,
-                         law.constrained == ConstrainedDirections::normal ?
+                         law.constrained == ConstrainedDirections::normal ||
+                             coupling.is_directed() ?
                            coupling.frames :
                            std::vector<std::vector<Frame>>());
     set_springs(coupling);
@@ -161,6 +162,7 @@ namespace mortise
                                                 patch_name(given, k) :
                                                 given.name,
                                               patches[k]));
+            couplings.back().number = couplings.size() - 1;
             faces += Utilities::MPI::sum(
               couplings.back().interface->slave().faces.size(), run.comm);
           }

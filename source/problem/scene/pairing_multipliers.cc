@@ -208,6 +208,7 @@ namespace mortise
         Coupling other =
           make_coupling(given, given.name, faces_of(given, given.slave));
         integrate(given, other);
+        other.number = couplings[i].number;
         std::swap(couplings[i], other);
         number_multipliers();
         const auto other_ties = tie_supports();

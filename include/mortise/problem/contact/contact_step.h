@@ -6,6 +6,7 @@
 #include <mortise/contact/active_set.h>
 #include <mortise/contact/contact_edge.h>
 #include <mortise/contact/contact_records.h>
+#include <mortise/mortar/slip_origin.h>
 #include <mortise/problem/contact/friction_set.h>
 #include <mortise/problem/contact/preloads.h>
 #include <mortise/problem/contact/solved_contact.h>
@@ -60,9 +61,24 @@ namespace mortise
     void
     resume(const SceneLoad &load, const SystemVector &x);
 
-    /// The present contact. Collective.
+    /// Continue within a step with other pairs, with @p x for @p load,
+    /// that of @p data, from @p accepted, the contact of the last step, if there is one, in which the
+    /// pairs were those of @p origin. The contact of the constructor is a guess.
+    /// Collective.
+    void
+    follow(const std::optional<ContactRecords> &accepted,
+           const SlipOrigin                    &origin,
+           const SceneData                     &data,
+           const SceneLoad                     &load,
+           const SystemVector                  &x);
+
+    /// The present contact, as of the last step. Collective.
     ContactRecords
     records() const;
+
+    /// The present contact with the iterate @p x for @p load. Collective.
+    ContactRecords
+    records_of_iterate(const SceneLoad &load, const SystemVector &x) const;
 
     /// Of the last solve().
     unsigned int

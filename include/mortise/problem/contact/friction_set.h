@@ -124,6 +124,13 @@ namespace mortise
     set_origin(const Vector            &weighted_gaps,
                const std::vector<bool> &which = {});
 
+    /// Slip counts from where sides were apart by @p openings, by node and
+    /// multiplier, the present ones of earlier pairs. @p weighted_gaps: the present
+    /// ones.
+    void
+    set_origin(const Vector                              &weighted_gaps,
+               const std::vector<dealii::Tensor<1, dim>> &openings);
+
     /// The step has converged.
     void
     accept(const std::vector<bool> &closed,
@@ -133,6 +140,12 @@ namespace mortise
     /// What the next step, or another discretisation, needs to know.
     std::vector<ContactRecord>
     records(const std::vector<bool> &closed) const;
+
+    /// Set what @p records have of the last step to what an iterate has.
+    void
+    set_iterate(const Vector               &lambda,
+                const Vector               &weighted_gaps,
+                std::vector<ContactRecord> &records) const;
 
     /// The inverse of records(); set_origin() must follow.
     void

@@ -185,6 +185,13 @@ namespace mortise
     void
     pair(const std::vector<BodySolution> &displaced);
 
+    /// Of pair(), the displacement at nodes; empty before.
+    const Vector &
+    displacement_of_pairing() const
+    {
+      return paired_at;
+    }
+
     /// Set the gaps of the right hand side of @p load, that of @p data, to
     /// those of the present pairing. Collective.
     void

@@ -78,6 +78,18 @@ namespace mortise
                          });
     }
 
+    /// Is a multiplier of any interface more than a component of the traction?
+    bool
+    have_frames() const
+    {
+      return slide() || have_springs() ||
+             std::any_of(couplings.begin(),
+                         couplings.end(),
+                         [](const Coupling &coupling) {
+                           return coupling.is_directed();
+                         });
+    }
+
     /// Do pairs of any interface follow the bodies?
     bool
     follow() const

@@ -1,0 +1,176 @@
+// See slip_origin.h.
+#include <mortise/mortar/coupled_faces.h>
+#include <mortise/mortar/slip_origin.h>
+
+#include "constraint_columns.h"
+#include "multiplier_sums.h"
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Where less of a face is covered the opening is its mean: polynomials of
+    /// higher degree are not known on the rest.
+    constexpr double least_coverage = 0.9;
+
+    /// What the integrals with multipliers are of polynomials N on a slave face,
+    /// inverted, or the mean as such a polynomial.
+    FullMatrix<double>
+    to_functions(const Coupling &coupling, const unsigned int s)
+    {
+      const LocalCoupling &local = coupling.local[s];
+      const unsigned int   n     = local.constraint.m();
+      FullMatrix<double>   result(n, n);
+      if (coupling.interface->coverage()[s] > least_coverage)
+        {
+          result.invert(local.constraint);
+          return result;
+        }
+      const TraceBasis &basis = coupling.interface->slave().traces[s].basis();
+      double            area  = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        area += on_constants(local.constraint, i, basis);
+      for (unsigned int v = 0; v < basis.n_vertices(); ++v)
+        for (unsigned int i = 0; i < n; ++i)
+          result(basis.vertex_function(v), i) = 1. / area;
+      return result;
+    }
+
+    bool
+    has_slip(const Coupling &coupling)
+    {
+      return coupling.is_displaced && coupling.law.has_friction();
+    }
+  } // namespace
+
+  SlipOrigin::SlipOrigin(const std::vector<Coupling> &couplings,
+                         const IndexSet              &owned_displacement,
+                         const Vector                &displacement,
+                         const MPI_Comm               comm)
+    : displacement(displacement)
+    , comm(comm)
+  {
+    unsigned int n_rows = 0;
+    for (const Coupling &coupling : couplings)
+      if (has_slip(coupling))
+        {
+          std::vector<Face> &of_slave = faces[coupling.number];
+          of_slave.resize(coupling.local.size());
+          for (unsigned int s = 0; s < of_slave.size(); ++s)
+            {
+              of_slave[s].has_partner = !coupling.local[s].partners.empty();
+              of_slave[s].first       = n_rows;
+              n_rows += coupling.local[s].constraint.m();
+            }
+        }
+    const IndexSet rows  = owned_range(n_rows, comm),
+                   nodes = nodes_of(owned_displacement);
+    const auto   first   = n_rows > 0 ? rows.nth_index_in_set(0) : 0;
+    RowAssembler assembler(rows, nodes);
+    /// Calls visit(row expansion, column expansion, block) for all blocks.
+    const auto for_each_block = [&](const bool values, const auto &visit) {
+      for_each_face(
+        couplings, [&](const Coupling &coupling, const unsigned int s) {
+          if (!has_slip(coupling))
+            return;
+          const LocalCoupling &local = coupling.local[s];
+          const unsigned int   n     = local.constraint.m();
+          Face                &face  = faces.at(coupling.number)[s];
+          ExpansionList        row;
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              row.add(first + face.first + i, 1.);
+              row.close();
+            }
+          FullMatrix<double> inverse;
+          if (values)
+            {
+              inverse = to_functions(coupling, s);
+              face.opening.resize(n);
+              for (unsigned int i = 0; i < n; ++i)
+                for (unsigned int j = 0; j < n; ++j)
+                  face.opening[i] += inverse(i, j) * local.gap_moment[j];
+            }
+          const auto add = [&](const FaceTrace          &side,
+                               const FullMatrix<double> &integrals,
+                               const double              factor) {
+            const NodalColumns columns(side);
+            FullMatrix<double> block(n, integrals.n());
+            if (values)
+              {
+                inverse.mmult(block, integrals);
+                block *= factor;
+                block = columns.in_columns(block);
+              }
+            visit(row(), columns.component(), block);
+          };
+          add(coupling.interface->slave().traces[s], local.constraint, 1.);
+          for (const auto &partner : local.partners)
+            add(coupling.interface->master_traces()[partner.master],
+                partner.constraint,
+                -1.);
+        });
+    };
+    for_each_block(false,
+                   [&](const Expansion          &row,
+                       const Expansion          &column,
+                       const FullMatrix<double> &block) {
+                     assembler.record(row, block.m(), column, block.n());
+                   });
+    assembler.allocate();
+    for_each_block(true,
+                   [&](const Expansion          &row,
+                       const Expansion          &column,
+                       const FullMatrix<double> &block) {
+                     assembler.add(row, column, block, 1., false);
+                   });
+    closing = assembler.create(comm, dim);
+  }
+
+  std::vector<Tensor<1, dim>>
+  SlipOrigin::openings(const std::vector<Coupling> &couplings,
+                       const Vector                &displacement_now,
+                       const IndexSet              &owned_multiplier) const
+  {
+    Vector moved = displacement_now;
+    moved -= displacement;
+    std::vector<double> closed(dim * closing.n_rows());
+    closing.vmult(closed.data(), moved.begin());
+    std::vector<Tensor<1, dim>> result;
+    for (const Coupling &coupling : couplings)
+      {
+        const unsigned int begin = result.size();
+        result.resize(begin + coupling.contact_nodes.size());
+        if (!has_slip(coupling))
+          continue;
+        const std::vector<Face> &of_slave = faces.at(coupling.number);
+        Vector sum = make_sums(1, coupling, owned_multiplier, comm)[0];
+        for_each_part(coupling,
+                      [&](const unsigned int    s,
+                          const unsigned int    i,
+                          const Tensor<1, dim> &direction,
+                          const auto            index,
+                          const double          weight) {
+                        const LocalCoupling &local = coupling.local[s];
+                        const Face          &then  = of_slave[s];
+                        Tensor<1, dim>       opening;
+                        if (!then.has_partner)
+                          opening = local.gap_moment[i];
+                        else
+                          for (unsigned int j = 0; j < then.opening.size(); ++j)
+                            for (unsigned int c = 0; c < dim; ++c)
+                              opening[c] +=
+                                local.constraint(i, j) *
+                                (then.opening[j][c] -
+                                 closed[dim * (then.first + j) + c]);
+                        sum(index) += weight * (opening * direction);
+                      });
+        sum.compress(VectorOperation::add);
+        for (unsigned int i = 0; i < coupling.contact_nodes.size(); ++i)
+          result[begin + i] = coupling.contact_nodes[i].mean(sum.begin());
+      }
+    return result;
+  }
+} // namespace mortise
