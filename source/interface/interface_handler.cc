@@ -59,6 +59,12 @@ namespace mortise
     constexpr double safe_distance = 0.25;
   } // namespace
 
+  namespace
+  {
+    /// Of a pair, beside that of the slave's face: less is rounding.
+    constexpr double least_area = 1e-12;
+  } // namespace
+
   bool
   InterfaceHandler::may_see_through() const
   {
@@ -183,6 +189,9 @@ namespace mortise
                 if (pair.status == PairStatus::accepted)
                   drop_hidden(s, m, pair, points);
                 refer_to_undeformed(s, pair, points);
+                if (pair.status == PairStatus::accepted &&
+                    !(pair.area > least_area * face.slave_area))
+                  pair.status = PairStatus::no_overlap;
                 clipping += Clock::now() - before;
                 face.add(pair, points);
                 if (pair.status == PairStatus::accepted)

@@ -282,7 +282,7 @@ namespace mortise
   {
     const BlockSystem &system = discretisation.linear_system();
     before    = last.history.empty() ? system.bulk->no_history() : last.history;
-    reference = size = size_before = 0.;
+    reference = size = size_before = contraction = 0.;
     stays                          = false;
     at_last_state                  = true;
     linearised_at.reset();
@@ -290,7 +290,8 @@ namespace mortise
       norm = std::make_unique<ScaledResidual>(system);
     if (along == nullptr && contact == nullptr)
       extrapolate(x);
-    why    = "Newton's method stagnates";
+    why      = "Newton's method stagnates";
+    is_wrong = false;
     newton = contact != nullptr && discretisation.interfaces().follow() ?
                follow(last, x) :
                improve(most_newton_iterations, x);

@@ -21,9 +21,10 @@ namespace mortise
     constexpr unsigned int most_pairings = 60, most_useless = 20,
                            few_pairings = 10;
 
-    /// Residuals below this that do not fall by half in so many iterations are
-    /// what numbers of points of integration leave that change with the pairs.
-    constexpr double       rounding_of_pairs = 1e-6;
+    /// Residuals below these that do not fall by half, the smaller in one
+    /// iteration and the larger in so many, are what numbers of points of
+    /// integration leave that change with the pairs.
+    constexpr double       rounding_of_pairs = 1e-7, most_rounding = 1e-6;
     constexpr unsigned int most_of_rounding  = 3;
 
     /// Of residuals from one iteration to the next.
@@ -151,9 +152,12 @@ namespace mortise
   void
   NonlinearStep::begin_contact(const std::optional<ContactRecords> &known)
   {
-    *of_scene = std::make_unique<ContactStep>(
+    auto next = std::make_unique<ContactStep>(
       run, discretisation, solver, preloads, known);
-    contact = of_scene->get();
+    if (linearised_at)
+      next->take_preconditioner(*contact);
+    *of_scene = std::move(next);
+    contact   = of_scene->get();
   }
 
   void
@@ -192,8 +196,7 @@ namespace mortise
     if (last.displacement.size() > 0 && last.contact)
       go_on(*last.contact, last, origin, x);
     Acceleration acceleration(discretisation.linear_system().bulk->diagonal());
-    double       best  = std::numeric_limits<double>::infinity(),
-           contraction = 0.;
+    double       best  = std::numeric_limits<double>::infinity();
     unsigned int rises = 0;
     NewtonReport all;
     while (all.iterations < most_pairings && rises < most_useless)
@@ -227,7 +230,9 @@ namespace mortise
           }
         catch (const InputError &error)
           {
-            why = error.what();
+            why          = error.what();
+            is_wrong     = true;
+            all.residual = std::numeric_limits<double>::infinity();
             break;
           }
         x.multiplier = zero();
@@ -235,12 +240,14 @@ namespace mortise
         go_on(reached, last, origin, x);
         const double before_that = all.residual;
         all.residual             = residual(x);
+        if (all.iterations > 0)
+          contraction = all.residual / before_that;
         print(++all.iterations, all.residual);
-        contraction   = all.residual / before_that;
         rises         = all.residual < 0.5 * best ? 0 : rises + 1;
         best          = std::min(best, all.residual);
         all.converged = all.residual <= tolerance() ||
-                        (best < rounding_of_pairs && rises >= most_of_rounding);
+                        (best < rounding_of_pairs && rises > 0) ||
+                        (best < most_rounding && rises >= most_of_rounding);
         if (all.converged)
           break;
       }

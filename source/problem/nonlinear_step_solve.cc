@@ -12,6 +12,9 @@ namespace mortise
     /// Of the residual of a linear solve, see doc/measurements/nonlinear.md.
     constexpr double loosest_solve = 0.01;
 
+    /// Of the first problem of contact that follows the bodies.
+    constexpr double first_contact = 1e-4;
+
     /// Of one linear solve; what it has reached then may serve all the same,
     /// but on a path, where tangents are nearly singular beside a limit point.
     constexpr unsigned int most_linear_iterations = 100, most_on_path = 400;
@@ -26,22 +29,25 @@ namespace mortise
   NonlinearStep::linearise(const SystemVector &x)
   {
     const bool elastic = size_before == 0. && at_last_state;
-    const bool refresh = least_cost == 0. || !solver.is_ready() ||
-                         last_cost > largest_cost * least_cost ||
-                         (elastic && shows_flow);
+    const bool follows =
+      contact != nullptr && discretisation.interfaces().follow();
+    const bool refresh = !solver.is_ready() ||
+                         (follows ? !linearised_at :
+                                    least_cost == 0. ||
+                                      last_cost > largest_cost * least_cost ||
+                                      (elastic && shows_flow));
     discretisation.linearise(
       x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
     linearised_at = x;
     // the matrix that is factorised does not have it
-    if (discretisation.interfaces().follow() &&
-        discretisation.choice().method != SolverMethod::direct)
+    if (follows && discretisation.choice().method != SolverMethod::direct)
       discretisation.add_force_stiffness(x.multiplier);
     preloads.system_changed();
     if (!refresh)
       return;
     shows_flow = !elastic && may_yield;
     // a new ContactStep makes preconditioners itself
-    if (contact == nullptr || !discretisation.interfaces().follow())
+    if (!follows)
       {
         solver.update();
         if (!solver.is_ready())
@@ -92,7 +98,8 @@ namespace mortise
                                x.pressure);
     else
       system.bulk->apply_to_constrained(moved, products);
-    system.constraint.Tvmult_add(products.displacement, x.multiplier);
+    if (x.multiplier.size() > 0)
+      system.constraint.Tvmult_add(products.displacement, x.multiplier);
     SceneLoad linear        = *load;
     linear.rhs.displacement = r.displacement;
     linear.rhs.displacement += products.displacement;
@@ -105,14 +112,15 @@ namespace mortise
       }
     SystemVector       solution = free_part(x); // from the iterate
     const SystemVector start    = solution;
-    SolveReport        report = contact->solve(*data, linear, solution);
+    const double       accuracy = accuracy_of_contact();
+    SolveReport report = contact->solve(*data, linear, solution, accuracy);
     const bool         shows  = solver.is_ready();
     if (!shows)
       show_without_stress();
     if (!report.converged && (!shows || discretisation.try_as_indefinite()))
       {
         solution = start;
-        report   = contact->solve(*data, linear, solution);
+        report   = contact->solve(*data, linear, solution, accuracy);
       }
     x = solution;
     x.displacement += load->prescribed_at_nodes;
@@ -125,6 +133,19 @@ namespace mortise
     if (!report.converged)
       why = "contact does not converge";
     return report;
+  }
+
+  double
+  NonlinearStep::accuracy_of_contact() const
+  {
+    const double least = run.parameters.solver.tolerance;
+    if (!discretisation.interfaces().follow())
+      return least;
+    // choice 2 of Eisenstat and Walker
+    const double eta = contraction > 0. ?
+                         std::min(loosest_solve, 0.9 * contraction * contraction) :
+                         first_contact;
+    return std::max(least, eta * std::min(1., size));
   }
 
   SolveReport

@@ -105,7 +105,10 @@ namespace mortise
       }
     else if (contact)
       {
-        report = contact->solve(data, load, next.solution);
+        report = contact->solve(data,
+                                load,
+                                next.solution,
+                                run.parameters.solver.tolerance);
         if (report.converged)
           contact->accept(load, next.solution);
       }

@@ -218,15 +218,18 @@ namespace mortise
                       "The run was stopped at t = " +
                         RunLog::number(state.time) + "; ") +
         interruption::what_is_complete());
+    const std::string results =
+      summary.steps.empty() ? ". No equilibrium was reached" :
+      adaptivity            ? ". The results of cycle " +
+                     std::to_string(summary.steps.back().cycle) +
+                     " are written" :
+                              ". The results up to t = " + RunLog::number(state.time) +
+                     " are written";
+    if (!report.converged && equations->has_no_answer())
+      throw InputError("No equilibrium was found" + because() + results);
     if (!report.converged && !equations->nonlinear_reason().empty())
       throw ConvergenceError(
-        "Newton's method did not converge" + because() +
-        (summary.steps.empty() ? ". No equilibrium was reached" :
-         adaptivity            ? ". The results of cycle " +
-                        std::to_string(summary.steps.back().cycle) +
-                        " are written" :
-                      ". The results up to t = " + RunLog::number(state.time) +
-                        " are written") +
+        "Newton's method did not converge" + because() + results +
         ". Take smaller steps (Steps/Step, Steps/Smallest step), or a "
         "smaller load: beyond a largest one there may be no equilibrium");
     if (!report.converged)

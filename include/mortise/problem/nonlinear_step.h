@@ -93,6 +93,13 @@ namespace mortise
       return why;
     }
 
+    /// Did it end at a state that has no answer, as bodies that nothing holds?
+    bool
+    has_no_answer() const
+    {
+      return is_wrong;
+    }
+
   private:
     double
     residual(const SystemVector &x) override;
@@ -172,6 +179,9 @@ namespace mortise
     /// What is left of prescribed displacements.
     Vector
     rest_of_prescribed(const SystemVector &x) const;
+    /// Of the next problem of contact.
+    double
+    accuracy_of_contact() const;
     /// Without what rounding leaves of the rest.
     void
     set_prescribed(SystemVector &x) const;
@@ -205,6 +215,7 @@ namespace mortise
     std::optional<SystemVector> linearised_at; ///< of this step, or nothing yet
     double                      reference = 0.; ///< size of forces
     double       size = 0., size_before = 0.;   ///< of iterates' residuals
+    double       contraction = 0.; ///< of the last iteration; 0: none yet
     double       time_of_load = 0.;             ///< with arc-length control
     bool         balanced     = false; ///< the iterate, but for its distance
     bool         stays = false; ///< linear solves do not improve the iterate
@@ -217,5 +228,6 @@ namespace mortise
     bool         shows_flow    = false; ///< preconditioners, not elastic ones
     NewtonReport newton;
     std::string  why;
+    bool         is_wrong = false;
   };
 } // namespace mortise

@@ -84,6 +84,13 @@ namespace mortise
                                                            "";
     }
 
+    /// Is that no matter of the step's length?
+    bool
+    has_no_answer() const
+    {
+      return !nonlinear_reason().empty() && nonlinear->has_no_answer();
+    }
+
     /// Number of active sets of contact if they did not converge, else zero.
     unsigned int
     unconverged_sets() const

@@ -4,6 +4,7 @@
 #include <mortise/problem/contact/contact_step.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace mortise
 {
@@ -31,9 +32,12 @@ namespace mortise
     const std::uint64_t n_held = n_holding(statuses);
     shows =
       !n_shown || n_held > 2 * *n_shown ||
-      (tolerance == run.parameters.solver.tolerance && 2 * n_held < *n_shown);
+      (tolerance == asked && 2 * n_held < *n_shown);
+    const bool repaired = std::exchange(other_pairs, false);
     if (shows)
       show();
+    else if (repaired)
+      solver.update_interfaces();
     else if (turns)
       solver.update_directions();
     else
@@ -72,7 +76,7 @@ namespace mortise
   SolveReport
   ContactStep::solve_set(const unsigned int max_iterations, SystemVector &x)
   {
-    const double asked = run.parameters.solver.tolerance;
+    const bool exact = asked <= run.parameters.solver.tolerance;
     if (!friction.empty())
       {
         solver.set_limits(asked,
@@ -82,9 +86,9 @@ namespace mortise
         return solve_with_friction(x);
       }
     solver.set_limits(tolerance,
-                      tolerance == asked ? SolverOptions().energy_fraction :
-                      cold && sets > 1   ? loosest_energy :
-                                           loose_energy,
+                      tolerance > asked || !exact ?
+                        cold && sets > 1 ? loosest_energy : loose_energy :
+                        SolverOptions().energy_fraction,
                       max_iterations);
     return preloads.solve(x.displacement.size() > 0, *load, x);
   }
@@ -104,6 +108,14 @@ namespace mortise
     friction.complete(x.multiplier);
     tolerance = result.tolerance;
     return result;
+  }
+
+  void
+  ContactStep::take_preconditioner(const ContactStep &other)
+  {
+    n_shown               = other.n_shown;
+    iterations_when_shown = other.iterations_when_shown;
+    other_pairs           = true;
   }
 
   std::uint64_t

@@ -98,7 +98,7 @@ namespace mortise
       SceneLoad    load = discretisation.load(data);
       SystemVector x;
       preloads.begin(data, {}, load);
-      if (!step.solve(data, load, x).converged)
+      if (!step.solve(data, load, x, run.parameters.solver.tolerance).converged)
         return {};
       return {step.records(), step.n_sets()};
     }

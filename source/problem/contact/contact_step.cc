@@ -98,7 +98,6 @@ namespace mortise
         sets = 1; // the one that predict() chose
         return 1.;
       }
-    const double asked   = run.parameters.solver.tolerance;
     const bool   is_last = tolerance == asked;
     // what a linear solve leaves is no reason to turn
     const double            accuracy = std::max(least_accuracy, tolerance);
@@ -234,10 +233,13 @@ namespace mortise
   }
 
   SolveReport
-  ContactStep::solve(const SceneData &data, SceneLoad &of_step, SystemVector &x)
+  ContactStep::solve(const SceneData &data,
+                     SceneLoad       &of_step,
+                     SystemVector    &x,
+                     const double     accuracy)
   {
-    const double asked = run.parameters.solver.tolerance;
-    load               = &of_step;
+    asked = accuracy;
+    load  = &of_step;
     friction.begin(data);
     // a factorisation gives all digits at once
     tolerance = discretisation.choice().method == SolverMethod::direct ?

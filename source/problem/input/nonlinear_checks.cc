@@ -37,41 +37,64 @@ namespace mortise
 
   namespace
   {
-    /// @p is_nonlinear: has a body a law of finite strain or of plasticity?
-    void
-    check_sliding(const Parameters          &parameters,
-                  const InterfaceParameters &interface,
-                  const bool                 is_nonlinear)
+    /// Does a body have a law of finite strain or of plasticity?
+    bool
+    has_nonlinear_law(const Parameters &parameters)
     {
-      const std::string path   = "Interface " + interface.name + "/Sliding";
-      const auto        refuse = [&](const std::string &with) {
-        parameters.fail(path, "finite with " + with, "small");
-      };
+      return std::any_of(parameters.bodies.begin(),
+                         parameters.bodies.end(),
+                         [](const BodyParameters &any) {
+                           return !is_linear(any.material);
+                         });
+    }
+
+    /// What keeps @p interface from following the bodies; empty: nothing.
+    std::string
+    obstacle_to_following(const Parameters          &parameters,
+                          const InterfaceParameters &interface)
+    {
       if (!is_one_sided(interface.law))
-        refuse("Law = " + name_of(interface.law));
-      if (!is_nonlinear)
-        refuse("bodies of linear laws alone");
+        return "Law = " + name_of(interface.law);
+      if (!has_nonlinear_law(parameters))
+        return "bodies of linear laws alone";
       if (interface.ignores_mesh_gap)
-        refuse("Mesh gap = ignored");
+        return "Mesh gap = ignored";
       if (parameters.adaptivity.target_error)
-        refuse("Adaptivity/Target error");
+        return "Adaptivity/Target error";
       for (const InterfaceParameters &other : parameters.interfaces)
         if (other.preload)
-          refuse("the Preload of interface " + other.name);
+          return "the Preload of interface " + other.name;
+      return "";
     }
   } // namespace
 
   void
+  choose_sliding(Parameters &parameters)
+  {
+    for (InterfaceParameters &interface : parameters.interfaces)
+      {
+        if (interface.sliding == "small" || interface.is_support)
+          continue;
+        const auto finite = [&](const SideParameters &side) {
+          return side.body < parameters.bodies.size() &&
+                 is_finite(parameters.bodies[side.body].material);
+        };
+        const std::string obstacle =
+          obstacle_to_following(parameters, interface);
+        if (interface.sliding == "finite" && !obstacle.empty())
+          parameters.fail("Interface " + interface.name + "/Sliding",
+                          "finite with " + obstacle,
+                          "auto or small");
+        interface.follows_bodies =
+          obstacle.empty() &&
+          (interface.sliding == "finite" || finite(interface.slave) ||
+           finite(interface.master));
+      }
+  }
+
+  void
   check_nonlinear_laws(const Parameters &parameters)
   {
-    const bool is_nonlinear = std::any_of(parameters.bodies.begin(),
-                                          parameters.bodies.end(),
-                                          [](const BodyParameters &any) {
-                                            return !is_linear(any.material);
-                                          });
-    for (const InterfaceParameters &interface : parameters.interfaces)
-      if (interface.follows_bodies)
-        check_sliding(parameters, interface, is_nonlinear);
     for (const BodyParameters &any : parameters.bodies)
       for (const auto &[name, boundary] : any.boundaries)
         if (boundary.pressure_follows.value_or(false) &&

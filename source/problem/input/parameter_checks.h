@@ -26,6 +26,10 @@ namespace mortise
   void
   check_loads(const Parameters &parameters);
 
+  /// Set which interfaces follow the bodies.
+  void
+  choose_sliding(Parameters &parameters);
+
   /// What goes together with laws of material that are not linear.
   void
   check_nonlinear_laws(const Parameters &parameters);

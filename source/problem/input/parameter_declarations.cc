@@ -141,11 +141,12 @@ namespace mortise
         Allowed::one_of({"real", "ignored"}));
       section.add(
         "Sliding",
-        interface.follows_bodies,
-        "Law = contact in scenes with a law of finite strain: which pairs of faces and normals it has. small: those of "
+        interface.sliding,
+        "Which pairs of faces and normals the contact of bodies with nonlinear laws has. small: those of "
         "the undeformed bodies; finite: those of the deformed bodies, found again in each iteration of Newton's "
-        "method, so that bodies may slide and turn far. Search distance then holds for the motion of a step.",
-        Allowed::one_of({"small", "finite"}));
+        "method, so that bodies may slide and turn far. Search distance then holds for the motion of a step. "
+        "auto: finite where a body has a law of finite strain.",
+        Allowed::one_of({"auto", "small", "finite"}));
       section.add(
         "Multiplier",
         interface.multiplier,

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "parameter_checks.h"
+
 namespace mortise
 {
 
@@ -147,6 +149,7 @@ namespace mortise
     for (const ParameterEntry &entry : entries)
       entry.set({entry.value, entry.where, entry.allowed});
     add_supports(parameters);
+    choose_sliding(parameters);
     // cycles find degrees, those that are given are where they begin
     if (parameters.adaptivity.target_error)
       for (BodyParameters &body : parameters.bodies)

@@ -223,7 +223,7 @@ namespace mortise
     const InterfaceReport     &report = couplings[i].interface->report();
     const InterfaceParameters &given  = interfaces[i];
     const std::string         &name   = couplings[i].interface->name();
-    if (report.pairs == 0)
+    if (report.pairs == 0 && !given.follows_bodies)
       throw InputError(
         "Interface " + given.name + ": the surfaces " +
         side_text(run.parameters, given.slave) + " and " +
@@ -250,9 +250,10 @@ namespace mortise
              "those that do not belong to the interface boundaries of their own";
         throw InputError(text.str());
       }
-    if (!displaced)
+    if (!displaced && report.pairs > 0)
       warn_of_mesh_gap(i);
-    if (report.covered_area < 0.999 * report.slave_area)
+    if (report.covered_area < 0.999 * report.slave_area &&
+        !given.follows_bodies)
       {
         std::ostringstream text;
         text << "interface " << name << ": only "

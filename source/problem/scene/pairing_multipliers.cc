@@ -98,7 +98,9 @@ namespace mortise
     throw_if_any(lost, run.comm);
     n_fixed   = Utilities::MPI::sum(n_fixed, run.comm);
     n_covered = Utilities::MPI::sum(n_covered, run.comm);
-    if (n_covered == 0)
+    if (n_covered == 0 && interfaces[i].follows_bodies)
+      run.log.line("  interface " + name + ": the surfaces do not meet");
+    else if (n_covered == 0)
       run.log.warning("interface " + name +
                       ": the surfaces hardly meet; nothing is tied");
     else if (n_fixed == n_covered)

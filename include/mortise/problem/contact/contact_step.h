@@ -43,8 +43,17 @@ namespace mortise
     /// not converged after 1000 sets, 60 with friction. Throws InputError with
     /// body and motion if contact is lost, or friction does not hold a body
     /// that nothing else does. Collective.
+    /// @p accuracy: of the last linear solve.
     SolveReport
-    solve(const SceneData &data, SceneLoad &load, SystemVector &x);
+    solve(const SceneData &data,
+          SceneLoad       &load,
+          SystemVector    &x,
+          double           accuracy);
+
+    /// Go on with the preconditioner of @p other, of other pairs. Its system
+    /// must have changed with the pairs alone, and little besides.
+    void
+    take_preconditioner(const ContactStep &other);
 
     /// The step ends with @p x, the solution of the last solve() for @p load:
     /// slip counts from here on. Collective.
@@ -214,6 +223,7 @@ namespace mortise
 
     SceneLoad   *load = nullptr; ///< of solve()
     NewtonReport report;
+    double       asked     = 0.; ///< the last tolerance
     double       tolerance = 0.; ///< of the next linear solve, or the last
     double       reduction =
       0.; ///< of the residual, with friction; 0: to the tolerance
@@ -225,6 +235,7 @@ namespace mortise
     /// Nodes that hold in the penalties of coarse levels.
     std::optional<std::uint64_t> n_shown;
     bool shows = false; ///< is the next one to be in these?
+    bool other_pairs = false; ///< has the preconditioner
     /// The most of a set that needed it to be so.
     unsigned int iterations_when_shown = 0;
     bool         cold = true; ///< is the first set of the step a poor guess?

@@ -28,7 +28,8 @@ namespace mortise
     bool           ignores_mesh_gap = false; ///< of contact
     std::string    multiplier       = "dual";
     std::string    offset           = "0";
-    bool           follows_bodies   = false; ///< Sliding = finite
+    std::string    sliding          = "auto";
+    bool           follows_bodies   = false; ///< what that means
     /// Of a tie: its normal force, and the time until which that is given.
     std::optional<std::string> preload;
     std::optional<double>      preload_until;
