@@ -287,10 +287,18 @@ namespace mortise
     std::sort(numbers.begin(), numbers.end());
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     std::vector<unsigned int> places;
-    for (const Index column : of_columns.columns)
-      places.push_back(
-        std::lower_bound(numbers.begin(), numbers.end(), column) -
-        numbers.begin());
+    // columns ascend within a row
+    for (unsigned int i = 0; i + 1 < of_columns.begin.size(); ++i)
+      for (auto [e, from] = std::pair(of_columns.begin[i], numbers.begin());
+           e < of_columns.begin[i + 1];
+           ++e)
+        {
+          const auto column = of_columns.columns[e];
+          from = from + 1 < numbers.end() && from[1] == column ?
+                   from + 1 :
+                   std::lower_bound(from, numbers.end(), column);
+          places.push_back(from - numbers.begin());
+        }
     std::vector<double>       sums(numbers.size());
     std::vector<bool>         is_entry(numbers.size());
     std::vector<unsigned int> of_row;

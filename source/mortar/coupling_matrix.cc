@@ -75,37 +75,27 @@ namespace mortise
   SparseMatrix
   CouplingMatrix::expanded() const
   {
-    const SparseMatrix of_rows =
-      has_frames() ? frames().transposed() : SparseMatrix();
     std::vector<bool> is_free(dim * scalar().n_columns(), true);
     for (const unsigned int k : constrained)
       is_free[k] = false;
-    std::vector<SparseMatrix::Entry> result;
+    SparseMatrix::CompressedRows rows; // of B_c
     for (unsigned int i = 0; i < scalar().n_rows(); ++i)
       {
         const auto row = scalar().row(representatives[i]);
-        const auto add = [&](const auto multiplier, const double factor) {
-          for (unsigned int k = 0; k < row.length; ++k)
-            if (const unsigned int at = dim * row.columns[k] + components[i];
-                is_free[at])
-              result.push_back(
-                {multiplier,
-                 dim * scalar().global_column(row.columns[k]) + components[i],
-                 factor * row.values[k]});
-        };
-        if (has_frames())
-          {
-            const auto frame = of_rows.row(i);
-            for (unsigned int k = 0; k < frame.length; ++k)
-              add(of_rows.global_column(frame.columns[k]), frame.values[k]);
-          }
-        else
-          add(scalar().global_row(i), 1.);
+        for (unsigned int k = 0; k < row.length; ++k)
+          if (is_free[dim * row.columns[k] + components[i]])
+            {
+              rows.columns.push_back(
+                dim * scalar().global_column(row.columns[k]) + components[i]);
+              rows.values.push_back(row.values[k]);
+            }
+        rows.begin.push_back(rows.columns.size());
       }
-    return SparseMatrix((has_frames() ? frames() : scalar()).rows(),
-                        scalar().owned_unknowns(),
-                        scalar().communicator(),
-                        result);
+    SparseMatrix of_rows(scalar().rows(),
+                         scalar().owned_unknowns(),
+                         scalar().communicator(),
+                         std::move(rows));
+    return has_frames() ? frames().times(of_rows) : of_rows;
   }
 
   Vector

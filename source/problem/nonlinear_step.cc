@@ -197,7 +197,7 @@ namespace mortise
     size                   = reached == 0. ? 0. : reached / reference;
     const double tolerance = this->tolerance();
     if (size > tolerance && (is_first || size < largest_rounding) &&
-        (stays || reached <= attainable(x)))
+        !follows() && (stays || reached <= attainable(x)))
       size = tolerance;
     // a body that is prescribed as a whole has no forces that could be left
     if (rest.linfty_norm() > 0. || (is_first && contact != nullptr))
@@ -292,9 +292,7 @@ namespace mortise
       extrapolate(x);
     why      = "Newton's method stagnates";
     is_wrong = false;
-    newton = contact != nullptr && discretisation.interfaces().follow() ?
-               follow(last, x) :
-               improve(most_newton_iterations, x);
+    newton = follows() ? follow(last, x) : improve(most_newton_iterations, x);
     if (!newton.converged)
       least_cost = 0.; // preconditioners are of a state that is left
 

@@ -29,10 +29,8 @@ namespace mortise
   NonlinearStep::linearise(const SystemVector &x)
   {
     const bool elastic = size_before == 0. && at_last_state;
-    const bool follows =
-      contact != nullptr && discretisation.interfaces().follow();
     const bool refresh = !solver.is_ready() ||
-                         (follows ? !linearised_at :
+                         (follows() ? !linearised_at :
                                     least_cost == 0. ||
                                       last_cost > largest_cost * least_cost ||
                                       (elastic && shows_flow));
@@ -40,14 +38,14 @@ namespace mortise
       x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
     linearised_at = x;
     // the matrix that is factorised does not have it
-    if (follows && discretisation.choice().method != SolverMethod::direct)
+    if (follows() && discretisation.choice().method != SolverMethod::direct)
       discretisation.add_force_stiffness(x.multiplier);
     preloads.system_changed();
     if (!refresh)
       return;
     shows_flow = !elastic && may_yield;
     // a new ContactStep makes preconditioners itself
-    if (!follows)
+    if (!follows())
       {
         solver.update();
         if (!solver.is_ready())
@@ -139,7 +137,7 @@ namespace mortise
   NonlinearStep::accuracy_of_contact() const
   {
     const double least = run.parameters.solver.tolerance;
-    if (!discretisation.interfaces().follow())
+    if (!follows())
       return least;
     // choice 2 of Eisenstat and Walker
     const double eta = contraction > 0. ?

@@ -132,6 +132,12 @@ namespace mortise
     /// At most @p most iterations with the present pairs.
     NewtonReport
     improve(unsigned int most, SystemVector &x);
+    /// Do interfaces of the scene follow the bodies?
+    bool
+    follows() const
+    {
+      return contact != nullptr && discretisation.interfaces().follow();
+    }
     /// Iterations of which each has the pairs of the bodies at its start.
     NewtonReport
     follow(const State &last, SystemVector &x);

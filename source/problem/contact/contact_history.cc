@@ -63,7 +63,8 @@ namespace mortise
   void
   ContactStep::remember(Solved now)
   {
-    if (!run.parameters.steps.given())
+    // with other pairs each problem has another ContactStep
+    if (!run.parameters.steps.given() || discretisation.interfaces().follow())
       return;
     if (!scaled)
       scaled = std::make_unique<ScaledResidual>(discretisation.linear_system());

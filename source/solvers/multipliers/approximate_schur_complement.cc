@@ -30,18 +30,20 @@ namespace mortise
       weights.local_element(i) = 1. / weights.local_element(i);
     for (const auto &independent : system.bulk->independent_displacements())
       weights.local_element(independent.index) = 0.;
-    by_component = weighted_square(rows, weights);
+    undirected = weighted_square(rows, weights);
+    if (system.constraint.has_frames())
+      undirected = in_frames(undirected, system.constraint.frames());
     if (system.active)
       update_directions();
     else
-      factorise(in_directions(std::move(by_component)));
+      factorise(in_directions(std::move(undirected)));
   }
 
   RowsByNode
   ApproximateSchurComplement::in_directions(RowsByNode C) const
   {
-    if (const CouplingMatrix &B = system.directed_constraint(); B.has_frames())
-      C = in_frames(C, B.frames());
+    if (system.directions)
+      C = in_frames(C, system.directions->turn);
     if (system.has_springs())
       add(C, system.compliance());
     return C;
@@ -50,7 +52,7 @@ namespace mortise
   bool
   ApproximateSchurComplement::update_directions()
   {
-    schur = in_directions(by_component);
+    schur = in_directions(undirected);
     return update_active();
   }
 

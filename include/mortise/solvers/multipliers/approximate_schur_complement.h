@@ -88,9 +88,9 @@ namespace mortise
     const CouplingProduct<float> &product;
     const std::size_t             max_gathered;
     LevelVector<double>           weights;
-    /// B_c T B_c^T, of the rows by component, and C in the directions of the
+    /// B T B^T with the frames of multipliers, and in the directions of the
     /// active set; kept once not all multipliers are active.
-    RowsByNode by_component, schur;
+    RowsByNode undirected, schur;
 
     /// (Entry, inverse of the diagonal) of multipliers without off-diagonal
     /// entries in C, unless Schwarz treats all.
