@@ -1,6 +1,7 @@
 // See contact_records.h.
 #include <mortise/contact/contact_records.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -12,8 +13,10 @@ namespace mortise
 
   ContactRecords::ContactRecords(const NodePositions              &positions,
                                  const std::vector<ContactRecord> &records,
-                                 const MPI_Comm                    comm)
+                                 std::vector<double> dissipated_apart,
+                                 const MPI_Comm      comm)
     : by_surface(last_surface(positions, comm))
+    , dissipated_apart(std::move(dissipated_apart))
   {
     auto own = by_surface;
     for (unsigned int i = 0; i < records.size(); ++i)
@@ -24,6 +27,17 @@ namespace mortise
         by_surface[s].insert(by_surface[s].end(),
                              of_rank[s].begin(),
                              of_rank[s].end());
+  }
+
+  std::vector<double>
+  ContactRecords::dissipated() const
+  {
+    std::vector<double> result = dissipated_apart;
+    result.resize(std::max(result.size(), by_surface.size()), 0.);
+    for (unsigned int s = 0; s < by_surface.size(); ++s)
+      for (const auto &[position, record] : by_surface[s])
+        result[s] += record.dissipated;
+    return result;
   }
 
   std::vector<ContactRecord>

@@ -61,7 +61,8 @@ namespace mortise
 
   namespace
   {
-    /// Of a pair, beside that of the slave's face: less is rounding.
+    /// Of a pair of displaced faces, beside that of the slave's: less is
+    /// rounding.
     constexpr double least_area = 1e-12;
   } // namespace
 
@@ -190,6 +191,7 @@ namespace mortise
                   drop_hidden(s, m, pair, points);
                 refer_to_undeformed(s, pair, points);
                 if (pair.status == PairStatus::accepted &&
+                    !slave_surface.undeformed.empty() &&
                     !(pair.area > least_area * face.slave_area))
                   pair.status = PairStatus::no_overlap;
                 clipping += Clock::now() - before;

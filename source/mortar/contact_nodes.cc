@@ -100,7 +100,7 @@ namespace mortise
 
     /// On a slave face, the means of rotations of normals that the coefficients
     /// of multipliers are: of dual ones with the weights phi_i, of standard
-    /// ones values at nodes.
+    /// ones values at nodes, and of all where pressures are normal at points.
     class MeanRotations
     {
     public:
@@ -111,7 +111,7 @@ namespace mortise
         const LocalCoupling &local = coupling.local[s];
         for (unsigned int i = 0; i < weights.m(); ++i)
           weights(i, i) = 1.;
-        if (!local.is_dual())
+        if (!local.is_dual() || local.is_directed())
           return;
         weights = nodal_mass(coupling, s);
         for (unsigned int i = 0; i < weights.m(); ++i)

@@ -18,20 +18,6 @@ namespace mortise
 
   namespace
   {
-    double
-    row_difference(const Coupling    &coupling,
-                   const unsigned int s,
-                   const unsigned int i)
-    {
-      double sum = integral(coupling, s, i);
-      for (const auto &partner : coupling.local[s].partners)
-        sum -= on_constants(
-          partner.constraint,
-          i,
-          coupling.interface->master_traces()[partner.master].basis());
-      return sum;
-    }
-
     /// Nodes that slip hold bodies across their directions: coarse levels of a
     /// body that nothing else holds need something of that.
     constexpr double share_of_slip = 0.1;
@@ -347,52 +333,5 @@ namespace mortise
         }
     sum.compress(VectorOperation::add);
     rhs += sum;
-  }
-
-  Resultants
-  resultants(const Coupling &coupling,
-             const Vector   &multiplier,
-             const MPI_Comm  comm)
-  {
-    const auto coefficients =
-      multiplier_coefficients(coupling, multiplier, comm);
-    Resultants     result;
-    Tensor<1, dim> force, moment; // imbalance
-    double         squared = 0.;
-    for (unsigned int s = 0; s < coupling.local.size(); ++s)
-      if (!coupling.local[s].partners.empty())
-        {
-          const LocalCoupling &local = coupling.local[s];
-          const unsigned int   n     = local.mass.m();
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              Tensor<1, dim> value;
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  value[c] = coefficients[s][c * n + i];
-                  for (unsigned int j = 0; j < n; ++j)
-                    squared += value[c] * multiplier_product(local, i, j) *
-                               coefficients[s][c * n + j];
-                }
-              result.force += integral(coupling, s, i) * value;
-              result.moment +=
-                cross_product_3d(local.position_moment[i], value);
-              force += row_difference(coupling, s, i) * value;
-              moment += cross_product_3d(local.gap_moment[i], value);
-            }
-        }
-    result.force      = Utilities::MPI::sum(result.force, comm);
-    result.moment     = Utilities::MPI::sum(result.moment, comm);
-    force             = Utilities::MPI::sum(force, comm);
-    moment            = Utilities::MPI::sum(moment, comm);
-    const double area = coupling.interface->report().covered_area;
-    const double carried =
-      std::sqrt(std::max(0., Utilities::MPI::sum(squared, comm)) * area);
-    if (carried > 0.)
-      {
-        result.force_residual  = force.norm() / carried;
-        result.moment_residual = moment.norm() / (carried * std::sqrt(area));
-      }
-    return result;
   }
 } // namespace mortise

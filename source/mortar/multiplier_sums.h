@@ -30,6 +30,21 @@ namespace mortise
                         coupling.interface->slave().traces[s].basis());
   }
 
+  /// int psi_i of slave face @p s less that of its partners.
+  inline double
+  row_difference(const Coupling    &coupling,
+                 const unsigned int s,
+                 const unsigned int i)
+  {
+    double sum = integral(coupling, s, i);
+    for (const auto &partner : coupling.local[s].partners)
+      sum -= on_constants(
+        partner.constraint,
+        i,
+        coupling.interface->master_traces()[partner.master].basis());
+    return sum;
+  }
+
   /// int psi_i psi_j
   inline double
   multiplier_product(const LocalCoupling &local,

@@ -137,7 +137,16 @@ namespace mortise
   std::vector<std::vector<Frame>>
   slave_frames(const Body &body, const BodySurface &slave)
   {
+    return slave_frames(body, slave, Normals(slave.faces.size()));
+  }
+
+  std::vector<std::vector<Frame>>
+  slave_frames(const Body &body, const BodySurface &slave, const Normals &given)
+  {
     Normals normals = face_normals(slave);
+    for (unsigned int s = 0; s < given.size(); ++s)
+      if (!given[s].empty())
+        normals[s] = given[s];
     if (slave.direction)
       for (auto &of_face : normals)
         std::fill(of_face.begin(), of_face.end(), *slave.direction);

@@ -4,6 +4,7 @@
 
 #include "constraint_columns.h"
 #include "multiplier_sums.h"
+#include "projection_on_faces.h"
 
 namespace mortise
 {
@@ -11,33 +12,6 @@ namespace mortise
 
   namespace
   {
-    /// Where less of a face is covered the opening is its mean: polynomials of
-    /// higher degree are not known on the rest.
-    constexpr double least_coverage = 0.9;
-
-    /// What the integrals with multipliers are of polynomials N on a slave face,
-    /// inverted, or the mean as such a polynomial.
-    FullMatrix<double>
-    to_functions(const Coupling &coupling, const unsigned int s)
-    {
-      const LocalCoupling &local = coupling.local[s];
-      const unsigned int   n     = local.constraint.m();
-      FullMatrix<double>   result(n, n);
-      if (coupling.interface->coverage()[s] > least_coverage)
-        {
-          result.invert(local.constraint);
-          return result;
-        }
-      const TraceBasis &basis = coupling.interface->slave().traces[s].basis();
-      double            area  = 0.;
-      for (unsigned int i = 0; i < n; ++i)
-        area += on_constants(local.constraint, i, basis);
-      for (unsigned int v = 0; v < basis.n_vertices(); ++v)
-        for (unsigned int i = 0; i < n; ++i)
-          result(basis.vertex_function(v), i) = 1. / area;
-      return result;
-    }
-
     bool
     has_slip(const Coupling &coupling)
     {
@@ -87,7 +61,8 @@ namespace mortise
           FullMatrix<double> inverse;
           if (values)
             {
-              inverse = to_functions(coupling, s);
+              inverse =
+                to_functions(*coupling.interface, coupling.local[s], s);
               face.opening.resize(n);
               for (unsigned int i = 0; i < n; ++i)
                 for (unsigned int j = 0; j < n; ++j)

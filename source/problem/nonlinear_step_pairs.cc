@@ -143,7 +143,15 @@ namespace mortise
     SystemVector x = discretisation.linear_system().zero_vector();
     x.displacement = displacement;
     SceneLoad without_prescribed;
-    discretisation.pair(discretisation.solutions(without_prescribed, x));
+    // both sides may have moved so far, towards each other
+    double moved = 0.;
+    if (begin.size() > 0)
+      {
+        Vector way(displacement);
+        way -= begin;
+        moved = 2. * way.linfty_norm();
+      }
+    discretisation.pair(discretisation.solutions(without_prescribed, x), moved);
     discretisation.set_gaps(*data, *load);
     norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
     paired_at = displacement;
@@ -181,6 +189,7 @@ namespace mortise
     const auto zero = [this] {
       return discretisation.linear_system().zero_vector().multiplier;
     };
+    begin = x.displacement;
     if (!are_equal(paired_at, x.displacement, run.comm))
       {
         pair_at(x.displacement);

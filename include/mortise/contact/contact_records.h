@@ -40,10 +40,17 @@ namespace mortise
     /// Without surfaces.
     ContactRecords() = default;
 
-    /// Both by owned node. Collective.
+    /// Both by owned node. @p dissipated_apart: by surface, see dissipated().
+    /// Collective.
     ContactRecords(const NodePositions              &positions,
                    const std::vector<ContactRecord> &records,
+                   std::vector<double>               dissipated_apart,
                    MPI_Comm                          comm);
+
+    /// By surface, energy that nodes have dissipated, and those that had been
+    /// in contact before and are none any more.
+    std::vector<double>
+    dissipated() const;
 
     /// By owned node of another discretisation: the record of the nearest node
     /// on its surface, of a closed one where two are equally near. On surfaces
@@ -59,11 +66,12 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &by_surface;
+      archive &by_surface &dissipated_apart;
     }
 
   private:
     using Position = std::array<double, 3>;
     std::vector<std::vector<std::pair<Position, ContactRecord>>> by_surface;
+    std::vector<double>                                          dissipated_apart;
   };
 } // namespace mortise

@@ -60,7 +60,7 @@ namespace mortise
     double
     gap() const
     {
-      return normal * opening;
+      return kinematic_normal() * opening;
     }
 
     bool

@@ -31,6 +31,13 @@ namespace mortise
   std::vector<std::vector<Frame>>
   slave_frames(const Body &body, const BodySurface &slave);
 
+  /// The same with the normals @p normals of each face in place of its own; an
+  /// empty entry stands for its own. Collective.
+  std::vector<std::vector<Frame>>
+  slave_frames(const Body                                             &body,
+               const BodySurface                                      &slave,
+               const std::vector<std::vector<dealii::Tensor<1, dim>>> &normals);
+
   /// A node of this rank at which a face's normal differs from the mean by more
   /// than 30 degrees. Collective.
   std::optional<dealii::Point<dim>>

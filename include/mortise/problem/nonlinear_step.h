@@ -203,6 +203,7 @@ namespace mortise
     Preloads         &preloads;
     const bool        may_yield; ///< one of the bodies
     Vector            paired_at; ///< displacement; empty: not yet
+    Vector            begin;     ///< likewise, of the step
     /// Indices of owned components that are prescribed.
     std::vector<unsigned int>       prescribed, hanging;
     std::unique_ptr<ScaledResidual> norm;

@@ -25,7 +25,10 @@ namespace mortise
   ContactRecords
   ContactStep::records() const
   {
-    return {positions, friction.records(set.active()), run.comm};
+    return {positions,
+            friction.records(set.active()),
+            friction.dissipated_apart(),
+            run.comm};
   }
 
   ContactRecords
@@ -37,7 +40,7 @@ namespace mortise
       friction.set_iterate(x.multiplier,
                            discretisation.weighted_gaps(load, x),
                            result);
-    return {positions, result, run.comm};
+    return {positions, result, friction.dissipated_apart(), run.comm};
   }
 
   void
@@ -50,7 +53,10 @@ namespace mortise
     if (friction.empty())
       return;
     if (accepted)
-      friction.restore(accepted->nearest(positions));
+      {
+        friction.restore(accepted->nearest(positions));
+        friction.set_dissipated(accepted->dissipated());
+      }
     friction.set_origin(
       discretisation.weighted_gaps(load, x),
       origin.openings(discretisation.interfaces().all(),

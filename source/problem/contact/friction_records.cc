@@ -1,4 +1,6 @@
 // What a FrictionSet keeps from step to step.
+#include <deal.II/base/mpi.h>
+
 #include <mortise/problem/contact/friction_set.h>
 
 namespace mortise
@@ -87,6 +89,24 @@ namespace mortise
         total_slip[i]  = node.contact->along_axes(records[i].slip);
         dissipation[i] = records[i].dissipated;
       }
+  }
+
+  void
+  FrictionSet::set_dissipated(const std::vector<double> &all)
+  {
+    const auto &couplings = discretisation.interfaces().all();
+    apart                 = all;
+    for (const Coupling &coupling : couplings)
+      if (apart.size() <= coupling.number)
+        apart.resize(coupling.number + 1, 0.);
+    std::vector<double> now(apart.size(), 0.);
+    auto                next = dissipation.begin();
+    for (const Coupling &coupling : couplings)
+      for (unsigned int k = 0; k < coupling.contact_nodes.size(); ++k)
+        now[coupling.number] += *next++;
+    Utilities::MPI::sum(now, run.comm, now);
+    for (unsigned int i = 0; i < apart.size(); ++i)
+      apart[i] -= now[i];
   }
 
   void

@@ -73,7 +73,9 @@ namespace mortise
   {
     for (InterfaceParameters &interface : parameters.interfaces)
       {
-        if (interface.sliding == "small" || interface.is_support)
+        // a tie keeps its pairs
+        if (interface.sliding == "small" || interface.is_support ||
+            interface.law == Law::tie)
           continue;
         const auto finite = [&](const SideParameters &side) {
           return side.body < parameters.bodies.size() &&

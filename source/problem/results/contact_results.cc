@@ -71,6 +71,8 @@ namespace mortise
       result.slip_max = Utilities::MPI::max(result.slip_max, comm);
       result.dissipated_energy =
         Utilities::MPI::sum(result.dissipated_energy, comm);
+      if (coupling.number < contact.dissipated_apart.size())
+        result.dissipated_energy += contact.dissipated_apart[coupling.number];
       result.force = components(Utilities::MPI::sum(force, comm));
       return result;
     }

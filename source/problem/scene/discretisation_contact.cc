@@ -61,9 +61,11 @@ namespace mortise
   }
 
   void
-  Discretisation::pair(const std::vector<BodySolution> &displaced)
+  Discretisation::pair(const std::vector<BodySolution> &displaced,
+                       const double                     least_search)
   {
-    set_pairing(std::make_unique<Pairing>(quiet, spaces, &displaced));
+    set_pairing(
+      std::make_unique<Pairing>(quiet, spaces, &displaced, least_search));
     paired_at =
       system.bulk->values_at_nodes([&](const auto body, const auto dof) {
         return displaced[body].displacement(dof);
@@ -92,7 +94,8 @@ namespace mortise
           for (unsigned int r = 0; r < node.n_multipliers; ++r)
             {
               const unsigned int m = node.multipliers[r];
-              rhs.begin()[m] += node.areas[r] * node.gap() * node.normal[r];
+              rhs.begin()[m] += node.areas[r] * node.gap() *
+                                node.kinematic_normal()[r];
               if (closed.size() > 0 && coupling.is_displaced)
                 rhs.begin()[m] += closed.begin()[m];
             }

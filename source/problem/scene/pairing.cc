@@ -19,10 +19,12 @@ namespace mortise
 
   Pairing::Pairing(const RunContext                &run,
                    const SceneSpaces               &spaces,
-                   const std::vector<BodySolution> *displaced)
+                   const std::vector<BodySolution> *displaced,
+                   const double                     least_search)
     : run(run)
     , spaces(spaces)
     , displaced(displaced)
+    , least_search(least_search)
     , owned(0)
   {
     if (run.parameters.interfaces.empty())
@@ -134,6 +136,12 @@ namespace mortise
                              coupling.is_directed() ?
                            coupling.frames :
                            std::vector<std::vector<Frame>>());
+    // the plane of slip
+    if (coupling.is_directed() && law.has_friction())
+      coupling.frames =
+        slave_frames(*spaces.bodies[given.slave.body],
+                     coupling.interface->slave(),
+                     normals_of_master(*coupling.interface, coupling.local));
     set_springs(coupling);
   }
 
@@ -148,6 +156,9 @@ namespace mortise
         const auto &least = spaces.cycle.least_search;
         if (const auto length = least.find(given.name); length != least.end())
           given.search_distance.least = length->second;
+        if (given.follows_bodies)
+          given.search_distance.least =
+            std::max(given.search_distance.least, least_search);
         const auto slave = faces_of(given, given.slave);
         // tractions jump at edges
         const auto patches =

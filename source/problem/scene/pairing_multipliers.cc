@@ -200,7 +200,7 @@ namespace mortise
           const auto side = master.find(boundary);
           return side != master.end() && side->second.displacement;
         };
-        if (tried[i] || is_patch(i) ||
+        if (tried[i] || is_patch(i) || given.follows_bodies ||
             std::any_of(given.master.boundaries.begin(),
                         given.master.boundaries.end(),
                         is_prescribed))

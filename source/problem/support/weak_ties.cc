@@ -70,13 +70,15 @@ namespace mortise
             const MPI_Comm                                      comm)
     {
       constexpr double least_ratio = 0.02;
-      const Extent     where       = extent(tie, comm);
-      TieSupport       ideal       = tie;
-      ideal.multipliers.clear();
-      double area = 0.;
+      double           area        = 0.;
       for (const auto &sample : tie.samples)
         area += sample.area;
       area = Utilities::MPI::sum(area, comm);
+      if (area == 0.)
+        return false; // contact that is yet to come
+      const Extent where = extent(tie, comm);
+      TieSupport   ideal = tie;
+      ideal.multipliers.clear();
       for (const auto &sample : tie.samples)
         {
           const double root = std::sqrt(sample.area / area);

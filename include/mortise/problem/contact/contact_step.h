@@ -110,7 +110,8 @@ namespace mortise
       return {set.undecided(),
               statuses(),
               friction.slips(),
-              friction.dissipated()};
+              friction.dissipated(),
+              friction.dissipated_apart()};
     }
 
     /// Of the last solve(), of all sets.

@@ -163,6 +163,19 @@ namespace mortise
       return total_slip;
     }
 
+    /// By Coupling::number, the energy that nodes have dissipated which are none
+    /// any more.
+    const std::vector<double> &
+    dissipated_apart() const
+    {
+      return apart;
+    }
+
+    /// Set that from the energy @p all of all nodes ever; after restore().
+    /// Collective.
+    void
+    set_dissipated(const std::vector<double> &all);
+
     /// Energy that all steps have dissipated.
     const std::vector<double> &
     dissipated() const
@@ -204,7 +217,7 @@ namespace mortise
     const bool                          within_system;
     std::vector<Node>                   nodes;
     std::vector<dealii::Tensor<1, dim>> total_slip;
-    std::vector<double>                 dissipation;
+    std::vector<double>                 dissipation, apart;
     /// Of the selected system: tractions of nodes that slip, by multiplier.
     Vector given;
     /// For accelerate(): bounds of linear systems with the same nodes that

@@ -17,5 +17,7 @@ namespace mortise
     /// Since the beginning of the run, in the space of the multipliers.
     std::vector<dealii::Tensor<1, 3>> slips;
     std::vector<double>               dissipated; ///< energy, likewise
+    /// By Coupling::number, that of nodes which are none any more.
+    std::vector<double> dissipated_apart;
   };
 } // namespace mortise

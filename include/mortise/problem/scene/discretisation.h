@@ -177,13 +177,13 @@ namespace mortise
     }
 
     /// Replace the pairing by that of the configuration displaced by the
-    /// solutions @p displaced, by body, where interfaces follow the bodies; the
-    /// bulk is kept. Their gaps are then linear in displacements about that
+    /// solutions @p displaced, by body, where interfaces follow the bodies, with
+    /// partners within @p least_search at least; the bulk is kept. Their gaps are then linear in displacements about that
     /// configuration. LinearSolver::update_interfaces() and set_gaps() must
     /// follow. Says nothing in the log. Collective; throws InputError as
     /// Pairing.
     void
-    pair(const std::vector<BodySolution> &displaced);
+    pair(const std::vector<BodySolution> &displaced, double least_search = 0.);
 
     /// Of pair(), the displacement at nodes; empty before.
     const Vector &

@@ -16,14 +16,16 @@ namespace mortise
   {
   public:
     /// Pair the sides of all interfaces on the meshes, those that follow the
-    /// bodies displaced by the solutions @p displaced, by body; integrate, and choose multipliers.
+    /// bodies displaced by the solutions @p displaced, by body, within @p least_search at least;
+    /// integrate, and choose multipliers.
     /// Slave and master are exchanged if other interfaces and prescribed
     /// displacements leave too few multipliers to tie the bodies. @p run and
     /// @p spaces must live on. Collective; throws InputError if surfaces do not
     /// meet, a rigid motion is free or constant tractions are not exact.
     Pairing(const RunContext                &run,
             const SceneSpaces               &spaces,
-            const std::vector<BodySolution> *displaced = nullptr);
+            const std::vector<BodySolution> *displaced    = nullptr,
+            double                           least_search = 0.);
 
     /// By interface, slave and master possibly exchanged. If bodies slide and
     /// the slave's boundary has edges, each of its smooth patches is an
@@ -212,6 +214,7 @@ namespace mortise
     const RunContext                &run;
     const SceneSpaces               &spaces;
     const std::vector<BodySolution> *displaced; ///< for the constructor
+    const double                     least_search; ///< likewise
     std::vector<InterfaceParameters> interfaces;
     std::vector<Coupling>            couplings;
     dealii::IndexSet                 owned;

@@ -1,0 +1,40 @@
+// The normals of masters at the nodes of slave faces, normals_of_master().
+#include <mortise/mortar/local_coupling.h>
+#include <mortise/mortar/nodal_block.h>
+
+#include "projection_on_faces.h"
+
+namespace mortise
+{
+  using namespace dealii;
+
+  std::vector<std::vector<Tensor<1, dim>>>
+  normals_of_master(const InterfaceHandler           &interface,
+                    const std::vector<LocalCoupling> &couplings)
+  {
+    std::vector<std::vector<Tensor<1, dim>>> result(couplings.size());
+    for (unsigned int s = 0; s < couplings.size(); ++s)
+      {
+        const LocalCoupling &local = couplings[s];
+        if (local.partners.empty())
+          continue;
+        const FaceTrace    &trace = interface.slave().traces[s];
+        const TraceBasis   &basis = trace.basis();
+        const unsigned int  n     = local.constraint.m();
+        FullMatrix<double>  values(n, n); // at nodes, from the integrals
+        face_nodal_basis(trace.shape, trace.degree)
+          .values.mmult(values, to_functions(interface, local, s));
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            Tensor<1, dim> sum;
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int v = 0; v < basis.n_vertices(); ++v)
+                for (unsigned int c = 0; c < dim; ++c)
+                  sum[c] += values(k, i) *
+                            local.directed[c](i, basis.vertex_function(v));
+            result[s].push_back(sum / sum.norm());
+          }
+      }
+    return result;
+  }
+} // namespace mortise
