@@ -121,6 +121,13 @@ namespace mortise
     void
     set_up_interfaces()
     {
+      // pairs before may have had multipliers
+      correction.reset();
+      projector.reset();
+      schur.reset();
+      own_product.reset();
+      product.reset();
+      carried = Vector();
       if (system.owned_multiplier.size() == 0)
         return;
       const RowsByEntity rows(system.directed_constraint());
@@ -142,8 +149,15 @@ namespace mortise
                                                                  *of_levels,
                                                                  *schur);
       projector  = std::make_unique<ConstraintProjector>(system, rows, *schur);
-      if (system.has_springs())
-        carried.reinit(system.owned_multiplier, system.communicator);
+      reinit_carried();
+    }
+
+    void
+    reinit_carried()
+    {
+      carried = system.has_springs() ?
+                  Vector(system.owned_multiplier, system.communicator) :
+                  Vector();
     }
 
     /// levels[l]->x = an approximate solution for levels[l]->b, on the finest
@@ -228,9 +242,7 @@ namespace mortise
       if (own_product)
         own_product->take_frames(system);
       projector->update_directions();
-      carried      = system.has_springs() ?
-                       Vector(system.owned_multiplier, system.communicator) :
-                       Vector();
+      reinit_carried();
       return valid = schur->update_directions();
     }
 
