@@ -1,6 +1,6 @@
 // A clip: a ring (radii 0.9 and 1.1) that is open at its right, with round
 // ends, and short parts by which it is pressed.
-DefineConstant[ n = 2 ];
+DefineConstant[ n = 3 ];
 SetFactory("Built-in");
 ri = 0.9; ro = 1.1; w = 0.1;
 a[] = {18 * Pi / 180, 40 * Pi / 180, 70 * Pi / 180, Pi, 290 * Pi / 180, 320 * Pi / 180, 342 * Pi / 180};

@@ -143,12 +143,11 @@ namespace mortise
   unsigned int
   MultiplierSpace::n_component_rows(const BodySurface &slave) const
   {
-    const auto n = [&](const bool of_directed) {
-      return RowsOfNodes(body, slave, numbered.by_face, of_directed).n_owned();
-    };
-    return n_directions == 1 ? n(directed) :
-           directed          ? n(true) + n(false) :
-                               n_owned();
+    if (n_directions == dim && !directed)
+      return n_owned();
+    const unsigned int n =
+      RowsOfNodes(body, slave, numbered.by_face, directed).n_owned();
+    return n_directions == dim ? 2 * n : n;
   }
 
   MultiplierSpace::ComponentRows

@@ -211,24 +211,6 @@ namespace mortise
                      });
     }
 
-    /// int psi_i (x_master - x_slave) of slave face @p s along @p direction.
-    double
-    opening(const Coupling       &coupling,
-            const unsigned int    s,
-            const unsigned int    i,
-            const Tensor<1, dim> &direction)
-    {
-      const LocalCoupling &local = coupling.local[s];
-      const double         all   = local.gap_moment[i] * direction;
-      if (!local.is_directed())
-        return all;
-      if (!coupling.law.has_friction())
-        return local.distance_moment[i];
-      const Tensor<1, dim> &normal = coupling.frames[s][i][0];
-      return all + (normal * direction) *
-                     (local.distance_moment[i] - local.gap_moment[i] * normal);
-    }
-
     std::vector<Vector>
     sums_by_multiplier(const Coupling &coupling,
                        const IndexSet &owned_multiplier,
@@ -377,8 +359,8 @@ namespace mortise
     std::vector<ContactNode> result;
     for (const auto &of_node : multipliers_of_nodes(*coupling.multipliers))
       {
-        ContactNode   &node = result.emplace_back();
-        unsigned int   own = local(of_node.front());
+        ContactNode &node = result.emplace_back();
+        unsigned int own  = local(of_node.front());
         for (const unsigned int k : of_node)
           {
             const unsigned int i = local(k), r = node.n_multipliers++;

@@ -81,21 +81,37 @@ namespace mortise
       return result;
     }
 
+    /// Of a slave face, by node.
+    struct NodalTractions
+    {
+      std::vector<double> pressure;
+      /// Tangential ones; empty without friction.
+      std::vector<Tensor<1, dim>> across;
+
+      bool
+      any() const
+      {
+        return std::any_of(pressure.begin(),
+                           pressure.end(),
+                           [](const double p) { return p != 0.; });
+      }
+    };
+
     /// Adds up the matrix of one pair of faces.
     class OfPair
     {
     public:
-      OfPair(const SurfaceFace         &slave_face,
-             const FaceTrace           &slave,
-             const SurfaceFace         &master_face,
-             const FaceTrace           &master,
-             const LocalCoupling       &local,
-             const std::vector<double> &coefficients)
+      OfPair(const SurfaceFace    &slave_face,
+             const FaceTrace      &slave,
+             const SurfaceFace    &master_face,
+             const FaceTrace      &master,
+             const LocalCoupling  &local,
+             const NodalTractions &tractions)
         : slave_face(slave_face)
         , slave(slave)
         , master(master)
         , local(local)
-        , coefficients(coefficients)
+        , tractions(tractions)
       {
         polynomial.reinit(master_face, master_face.frame.center);
       }
@@ -117,9 +133,10 @@ namespace mortise
             master.basis().evaluate(eta[0], eta[1], &of_master(q, 0));
             set_slopes(eta, q, slopes);
           }
-        std::vector<double> pressures(n_q);
+        std::vector<double>         pressures(n_q);
+        std::vector<Tensor<1, dim>> across(n_q);
         for (unsigned int q = 0; q < n_q; ++q)
-          pressures[q] = pressure(&of_slave(q, 0));
+          add_tractions(&of_slave(q, 0), pressures[q], across[q]);
 
         of_slave  = NodalColumns(slave).in_columns(of_slave);
         of_master = NodalColumns(master).in_columns(of_master);
@@ -128,6 +145,7 @@ namespace mortise
         const unsigned int n = dim * (n_s + n_m);
         // V_1, V_2, T_1, T_2 at each point, and what each is multiplied with
         FullMatrix<double> rows(4 * n_q, n), others(4 * n_q, n), result(n, n);
+        std::vector<Geometry> geometry;
         for (unsigned int q = 0; q < n_q; ++q)
           {
             const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]);
@@ -147,6 +165,7 @@ namespace mortise
             // points move along the slave's normal
             for (Tensor<1, dim> &dual : at.dual)
               dual -= (dual * normal) / (at.nu * normal) * at.nu;
+            geometry.push_back(at);
             for (unsigned int a = 0; a < 2; ++a)
               for (unsigned int c = 0; c < dim; ++c)
                 {
@@ -171,10 +190,71 @@ namespace mortise
                 }
           }
         rows.Tmmult(result, others);
+        if (!tractions.across.empty())
+          {
+            for (unsigned int q = 0; q < n_q; ++q)
+              {
+                std::vector<double> normal_motion(n);
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    for (unsigned int k = 0; k < n_s; ++k)
+                      normal_motion[c * n_s + k] =
+                        geometry[q].nu[c] * of_slave(q, k);
+                    for (unsigned int k = 0; k < n_m; ++k)
+                      normal_motion[dim * n_s + c * n_m + k] =
+                        -geometry[q].nu[c] * of_master(q, k);
+                  }
+                turn_to_friction(points.weight[q],
+                                 across[q],
+                                 geometry[q],
+                                 normal_motion,
+                                 &rows(4 * q, 0),
+                                 &others(4 * q, 0));
+                for (unsigned int a = 0; a < 2; ++a)
+                  for (unsigned int c = 0; c < dim; ++c)
+                    for (unsigned int k = 0; k < n_m; ++k)
+                      rows(4 * q + a, dim * n_s + c * n_m + k) =
+                        across[q][c] * slopes[a](q, k);
+              }
+            rows.Tmmult(result, others, true);
+          }
         return result;
       }
 
     private:
+      /// From the four rows of a point for pressures to those for the traction
+      /// @p across: the master's points move below it, and it turns with the
+      /// master. @p rows and @p others: n entries each.
+      static void
+      turn_to_friction(const double               weight,
+                       const Tensor<1, dim>      &across,
+                       const Geometry            &at,
+                       const std::vector<double> &normal_motion,
+                       double                    *rows,
+                       double                    *others)
+      {
+        const unsigned int n = normal_motion.size();
+        for (unsigned int j = 0; j < n; ++j)
+          {
+            double turn = 0.;
+            for (unsigned int a = 0; a < 2; ++a)
+              {
+                double sum = rows[a * n + j];
+                for (unsigned int b = 0; b < 2; ++b)
+                  sum += at.curvature[a][b] * rows[(2 + b) * n + j];
+                turn += (across * at.dual[a]) * sum;
+              }
+            for (unsigned int a = 0; a < 2; ++a)
+              {
+                others[a * n + j] = -weight * rows[(2 + a) * n + j];
+                rows[a * n + j]   = 0.; // the caller knows the slopes
+              }
+            rows[2 * n + j]   = normal_motion[j];
+            others[2 * n + j] = weight * turn;
+            rows[3 * n + j] = others[3 * n + j] = 0.;
+          }
+      }
+
       void
       set_slopes(const Point<2>                    &eta,
                  const unsigned int                 q,
@@ -193,44 +273,64 @@ namespace mortise
           }
       }
 
-      /// Of the slave's functions @p values.
-      double
-      pressure(const double *values) const
+      /// From the values of the slave's functions.
+      void
+      add_tractions(const double   *values,
+                    double         &pressure,
+                    Tensor<1, dim> &across) const
       {
-        const unsigned int n      = slave.n_functions();
-        double             result = 0.;
+        const unsigned int n = slave.n_functions();
         for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            result += coefficients[i] * local.multiplier(i, j) * values[j];
-        return result;
+          {
+            double psi = 0.;
+            for (unsigned int j = 0; j < n; ++j)
+              psi += local.multiplier(i, j) * values[j];
+            pressure += psi * tractions.pressure[i];
+            if (!tractions.across.empty())
+              across += psi * tractions.across[i];
+          }
       }
 
-      const SurfaceFace         &slave_face;
-      const FaceTrace           &slave, &master;
-      const LocalCoupling       &local;
-      const std::vector<double> &coefficients;
-      FacePolynomial             polynomial;
+      const SurfaceFace    &slave_face;
+      const FaceTrace      &slave, &master;
+      const LocalCoupling  &local;
+      const NodalTractions &tractions;
+      FacePolynomial        polynomial;
     };
   } // namespace
 
   namespace
   {
-    /// By slave face and node.
-    std::vector<std::vector<double>>
-    pressures(const Coupling &coupling,
-              const Vector   &multiplier,
-              const MPI_Comm  comm)
+    /// By slave face; empty where the coupling does not follow the bodies.
+    std::vector<NodalTractions>
+    nodal_tractions(const Coupling &coupling,
+                    const Vector   &multiplier,
+                    const MPI_Comm  comm)
     {
-      auto result = values_by_row(coupling, multiplier, comm);
-      if (!coupling.law.has_friction())
+      std::vector<NodalTractions> result;
+      if (!coupling.is_directed())
         return result;
-      for (unsigned int s = 0; s < result.size(); ++s)
+      const auto by_row       = values_by_row(coupling, multiplier, comm);
+      const bool has_friction = coupling.law.has_friction();
+      for (unsigned int s = 0; s < by_row.size(); ++s)
         {
-          const unsigned int  n = coupling.frames[s].size();
-          std::vector<double> of_nodes(n, 0.);
-          for (unsigned int r = 0; r < result[s].size(); ++r)
-            of_nodes[r % n] += result[s][r] * coupling.frames[s][r % n][0][r / n];
-          result[s] = of_nodes;
+          NodalTractions &of_face = result.emplace_back();
+          if (!has_friction)
+            {
+              of_face.pressure = by_row[s];
+              continue;
+            }
+          const auto        &frames = coupling.frames[s];
+          const unsigned int n      = frames.size();
+          of_face.across.resize(n);
+          for (unsigned int r = 0; r < by_row[s].size(); ++r)
+            of_face.across[r % n][r / n] = by_row[s][r];
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              const Tensor<1, dim> &normal = frames[k][0];
+              of_face.pressure.push_back(of_face.across[k] * normal);
+              of_face.across[k] -= of_face.pressure[k] * normal;
+            }
         }
       return result;
     }
@@ -243,21 +343,13 @@ namespace mortise
                   const MPI_Comm               comm)
   {
     RowAssembler assembler(owned_displacement, owned_displacement);
-    std::vector<std::vector<std::vector<double>>> coefficients;
-    const auto is_loaded = [](const std::vector<double> &of_face) {
-      return std::any_of(of_face.begin(), of_face.end(), [](const double p) {
-        return p != 0.;
-      });
-    };
+    std::vector<std::vector<NodalTractions>> tractions;
     for (const Coupling &coupling : couplings)
       {
-        coefficients.emplace_back();
-        if (!coupling.is_directed())
-          continue;
-        coefficients.back() = pressures(coupling, multiplier, comm);
+        tractions.push_back(nodal_tractions(coupling, multiplier, comm));
         const InterfaceHandler &interface = *coupling.interface;
-        for (unsigned int s = 0; s < coupling.local.size(); ++s)
-          if (is_loaded(coefficients.back()[s]))
+        for (unsigned int s = 0; s < tractions.back().size(); ++s)
+          if (tractions.back()[s].any())
             for (const auto &partner : coupling.local[s].partners)
               {
                 const ExpansionList all =
@@ -274,7 +366,7 @@ namespace mortise
           interface.visit_pairs([&](const unsigned int       s,
                                     const unsigned int       m,
                                     const IntegrationPoints &points) {
-            if (!is_loaded(coefficients[i][s]))
+            if (!tractions[i][s].any())
               return;
             const FaceTrace &slave  = interface.slave().traces[s],
                             &master = interface.master_traces()[m];
@@ -283,7 +375,7 @@ namespace mortise
                            interface.master_faces()[m],
                            master,
                            couplings[i].local[s],
-                           coefficients[i][s]);
+                           tractions[i][s]);
             const ExpansionList all = displacements(slave, master);
             assembler.add(all(), all(), of_pair(points), 1., false);
           });

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "along_normals.h"
 #include "independent_masters.h"
-#include "projected_products.h"
 
 namespace mortise
 {
@@ -30,22 +30,6 @@ namespace mortise
         basis.evaluate(coordinates[0][first + q],
                        coordinates[1][first + q],
                        &values(q, 0));
-    }
-
-    /// w_q N_i(x_q); weights of signed sectors may be negative.
-    void
-    scale_rows(const FullMatrix<double> &values,
-               const double             *weights,
-               FullMatrix<double>       &scaled)
-    {
-      scaled.reinit(values.m(), values.n(), true);
-      for (unsigned int q = 0; q < values.m(); ++q)
-        {
-          const double *from = &values(q, 0);
-          double       *to   = &scaled(q, 0);
-          for (unsigned int i = 0; i < values.n(); ++i)
-            to[i] = weights[q] * from[i];
-        }
     }
 
     /// int phi_i over the area of an affine face, for those that have dual
@@ -171,88 +155,6 @@ namespace mortise
         }
     }
 
-    /// int N_i N_j n on the covered part of a face, by component of n.
-    using NormalMoments = std::array<FullMatrix<double>, dim>;
-
-    /// Add w_q N_i N_j n of some points, of which @p weighted has w_q N_i. @p normal:
-    /// the coefficients of n.
-    void
-    add_normal_moments(const std::vector<Tensor<1, dim>> &normal,
-                       const FullMatrix<double>          &values,
-                       const FullMatrix<double>          &weighted,
-                       NormalMoments                     &moments)
-    {
-      std::vector<double> at_points(values.m());
-      FullMatrix<double>  of_component;
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          for (unsigned int q = 0; q < values.m(); ++q)
-            {
-              at_points[q] = 0.;
-              for (unsigned int j = 0; j < values.n(); ++j)
-                at_points[q] += values(q, j) * normal[j][c];
-            }
-          scale_rows(weighted, at_points.data(), of_component);
-          of_component.Tmmult(moments[c], values, true);
-        }
-    }
-
-    /// The coefficients in N of the field with the normals of @p frames at nodes.
-    std::vector<Tensor<1, dim>>
-    in_functions(const std::vector<Frame> &frames, const FaceTrace &trace)
-    {
-      const FullMatrix<double> &functions =
-        face_nodal_basis(trace.shape, trace.degree).functions;
-      std::vector<Tensor<1, dim>> result(frames.size());
-      for (unsigned int j = 0; j < frames.size(); ++j)
-        for (unsigned int k = 0; k < frames.size(); ++k)
-          result[j] += functions(j, k) * frames[k][0];
-      return result;
-    }
-
-    /// LocalCoupling::along_normals: the projection on the whole face,
-    /// corrected
-    /// on its covered part by @p moments of the multipliers there.
-    void
-    set_along_normals(const SurfaceFace        &face,
-                      const FaceTrace          &trace,
-                      const std::vector<Frame> &frames,
-                      const NormalMoments      &moments,
-                      LocalCoupling            &local)
-    {
-      /// Weight of the correction on the rest of the face.
-      constexpr double   share = 1e-9;
-      const unsigned int n     = frames.size();
-      local.along_normals      = projected_products<Tensor<1, dim>>(
-        face, trace, [&](const dealii::Vector<double> &phi) {
-          return interpolated(frames, phi);
-        });
-      FullMatrix<double> mass(n, n), inverse(n, n);
-      local.constraint.mTmult(mass, local.multiplier);
-      inverse = mass;
-      for (unsigned int i = 0; i < n; ++i)
-        inverse(i, i) *= 1. + share;
-      inverse.gauss_jordan();
-      FullMatrix<double> half(n, n), wanted(n, n), now(n, n), left(n, n);
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          local.multiplier.mmult(half, moments[c]);
-          half.mTmult(wanted, local.multiplier); // k, i
-          for (unsigned int k = 0; k < n; ++k)
-            for (unsigned int i = 0; i < n; ++i)
-              now(k, i) = local.along_normals[k * n + i][c];
-          now.mmult(left, mass);
-          wanted.add(-1., left);
-          wanted.mmult(left, inverse);
-          for (unsigned int k = 0; k < n; ++k)
-            for (unsigned int i = 0; i < n; ++i)
-              local.along_normals[k * n + i][c] += left(k, i);
-        }
-    }
-  } // namespace
-
-  namespace
-  {
     /// d of LocalCoupling at points @p first, ..., by component.
     std::array<std::vector<double>, dim>
     directions(const SurfaceFace       &slave,

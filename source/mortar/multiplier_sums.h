@@ -45,6 +45,24 @@ namespace mortise
     return sum;
   }
 
+  /// int psi_i (x_master - x_slave) of slave face @p s along @p direction.
+  inline double
+  opening(const Coupling               &coupling,
+          const unsigned int            s,
+          const unsigned int            i,
+          const dealii::Tensor<1, dim> &direction)
+  {
+    const LocalCoupling &local = coupling.local[s];
+    const double         all   = local.gap_moment[i] * direction;
+    if (!local.is_directed())
+      return all;
+    if (!coupling.law.has_friction())
+      return local.distance_moment[i];
+    const dealii::Tensor<1, dim> &normal = coupling.frames[s][i][0];
+    return all + (normal * direction) *
+                   (local.distance_moment[i] - local.gap_moment[i] * normal);
+  }
+
   /// int psi_i psi_j
   inline double
   multiplier_product(const LocalCoupling &local,

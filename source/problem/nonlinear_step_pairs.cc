@@ -25,7 +25,7 @@ namespace mortise
     /// iteration and the larger in so many, are what numbers of points of
     /// integration leave that change with the pairs.
     constexpr double       rounding_of_pairs = 1e-7, most_rounding = 1e-6;
-    constexpr unsigned int most_of_rounding  = 3;
+    constexpr unsigned int most_of_rounding = 3;
 
     /// Of residuals from one iteration to the next.
     constexpr double slow_contraction = 0.1;
@@ -38,8 +38,49 @@ namespace mortise
       return Utilities::MPI::min(same ? 1 : 0, comm) == 1;
     }
 
-    /// By name of an interface: multiplier_coefficients().
+    /// By name of an interface: multiplier_coefficients(), in axes that follow
+    /// the bodies if there is friction.
     using ByFace = std::map<std::string, std::vector<std::vector<double>>>;
+
+    /// The normal of a node and two tangents that move with the face.
+    Frame
+    axes(const Coupling &coupling, const unsigned int s, const unsigned int k)
+    {
+      Tensor<1, dim> n(coupling.frames[s][k][0]),
+        t(coupling.interface->slave().faces[s].frame.tangent[0]);
+      t -= (t * n) * n;
+      Frame result;
+      result[0] = n;
+      result[1] = t / t.norm();
+      result[2] = cross_product_3d(n, Tensor<1, dim>(result[1]));
+      return result;
+    }
+
+    /// Of tractions with friction, by slave face, in the axes of nodes, or from
+    /// these in space.
+    std::vector<std::vector<double>>
+    in_axes(const Coupling                  &coupling,
+            std::vector<std::vector<double>> coefficients,
+            const bool                       to_space)
+    {
+      if (!coupling.is_directed() || !coupling.law.has_friction())
+        return coefficients;
+      for (unsigned int s = 0; s < coefficients.size(); ++s)
+        {
+          const unsigned int n = coupling.frames[s].size();
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              const Frame    Q = axes(coupling, s, k);
+              Tensor<1, dim> value;
+              for (unsigned int c = 0; c < dim; ++c)
+                value[c] = coefficients[s][c * n + k];
+              value = to_space ? transpose(Q) * value : Q * value;
+              for (unsigned int c = 0; c < dim; ++c)
+                coefficients[s][c * n + k] = value[c];
+            }
+        }
+      return coefficients;
+    }
 
     ByFace
     by_face(const Pairing &pairing,
@@ -49,7 +90,9 @@ namespace mortise
       ByFace result;
       for (const Coupling &coupling : pairing.all())
         result[coupling.interface->name()] =
-          multiplier_coefficients(coupling, multiplier, comm);
+          in_axes(coupling,
+                  multiplier_coefficients(coupling, multiplier, comm),
+                  false);
       return result;
     }
 
@@ -122,8 +165,8 @@ namespace mortise
         Vector       way;
       };
 
-      const Vector     &weights;
-      std::deque<Step>  steps;
+      const Vector    &weights;
+      std::deque<Step> steps;
     };
 
     /// Those of patches that met no master before stay as they are.
@@ -133,7 +176,9 @@ namespace mortise
       for (const Coupling &coupling : pairing.all())
         if (const auto found = known.find(coupling.interface->name());
             found != known.end())
-          set_multiplier(coupling, found->second, multiplier);
+          set_multiplier(coupling,
+                         in_axes(coupling, found->second, true),
+                         multiplier);
     }
   } // namespace
 

@@ -15,6 +15,9 @@ namespace mortise
     /// Of the first problem of contact that follows the bodies.
     constexpr double first_contact = 1e-4;
 
+    /// Nodes begin to slip and to stick where the solution is less exact.
+    constexpr double loosest_of_friction = 1e-3;
+
     /// Of one linear solve; what it has reached then may serve all the same,
     /// but on a path, where tangents are nearly singular beside a limit point.
     constexpr unsigned int most_linear_iterations = 100, most_on_path = 400;
@@ -29,11 +32,11 @@ namespace mortise
   NonlinearStep::linearise(const SystemVector &x)
   {
     const bool elastic = size_before == 0. && at_last_state;
-    const bool refresh = !solver.is_ready() ||
-                         (follows() ? !linearised_at :
-                                    least_cost == 0. ||
-                                      last_cost > largest_cost * least_cost ||
-                                      (elastic && shows_flow));
+    const bool refresh =
+      !solver.is_ready() ||
+      (follows() ? !linearised_at :
+                   least_cost == 0. || last_cost > largest_cost * least_cost ||
+                     (elastic && shows_flow));
     discretisation.linearise(
       x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
     linearised_at = x;
@@ -112,7 +115,7 @@ namespace mortise
     const SystemVector start    = solution;
     const double       accuracy = accuracy_of_contact();
     SolveReport report = contact->solve(*data, linear, solution, accuracy);
-    const bool         shows  = solver.is_ready();
+    const bool  shows  = solver.is_ready();
     if (!shows)
       show_without_stress();
     if (!report.converged && (!shows || discretisation.try_as_indefinite()))
@@ -141,7 +144,10 @@ namespace mortise
       return least;
     // choice 2 of Eisenstat and Walker
     const double eta = contraction > 0. ?
-                         std::min(loosest_solve, 0.9 * contraction * contraction) :
+                         std::min(discretisation.interfaces().have_friction() ?
+                                    loosest_of_friction :
+                                    loosest_solve,
+                                  0.9 * contraction * contraction) :
                          first_contact;
     return std::max(least, eta * std::min(1., size));
   }

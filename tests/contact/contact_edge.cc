@@ -130,7 +130,7 @@ main(int argc, char *argv[])
       records[i].closed  = x < (both.positions.surfaces[i] == 1 ? 0.41 : 0.81);
       records[i].slip[0] = x;
     }
-  const ContactRecords known(both.positions, records, MPI_COMM_WORLD);
+  const ContactRecords known(both.positions, records, {}, MPI_COMM_WORLD);
   for (const unsigned int surface : {1, 2})
     {
       const Strip  finer(0.007, MPI_COMM_WORLD, surface);

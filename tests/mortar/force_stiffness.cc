@@ -1,7 +1,8 @@
 // Proves that forces of contact that follows the bodies are the derivatives of
 // the gaps, and that force_stiffness() is the derivative of these forces at
 // fixed multipliers, by differences in random directions where the sides touch:
-// hexahedra on hexahedra, tetrahedra on hexahedra, stretched and turned.
+// hexahedra on hexahedra, tetrahedra on hexahedra, stretched and turned; and
+// that it is with friction for motions that leave the axes of tractions.
 #include <deal.II/base/mpi.h>
 
 #include <mortise/mortar/force_stiffness.h>
@@ -37,7 +38,9 @@ namespace
   }
 
   std::string
-  scene(const bool tetrahedra, const unsigned int degree)
+  scene(const bool         tetrahedra,
+        const unsigned int degree,
+        const bool         has_friction = false)
   {
     return "set Bodies = lower, upper\nset Interfaces = touch\n" +
            block(
@@ -50,7 +53,8 @@ namespace
                  "zmax") +
            "subsection Interface touch\n  set Slave = upper: zmin\n"
            "  set Master = lower: zmax\n  set Law = contact\n"
-           "  set Sliding = finite\n  set Quadrature points = 12\nend\n";
+           "  set Sliding = finite\n  set Quadrature points = 12\n" +
+           (has_friction ? "  set Friction coefficient = 0.3\n" : "") + "end\n";
   }
 
   /// A number for each unknown, as good as random.
@@ -71,10 +75,37 @@ namespace
     return d.l2_norm() / b.l2_norm();
   }
 
+  constexpr double step = 1e-5, angle = 0.7;
+
+  /// Stretched and turned about the x axis.
+  Tensor<1, dim>
+  place(const Point<dim> &x)
+  {
+    const Tensor<1, dim> y({1.2 * x[0] + 0.1 * x[1], 0.9 * x[1], 0.7 * x[2]});
+    return Tensor<1, dim>({y[0],
+                           std::cos(angle) * y[1] - std::sin(angle) * y[2],
+                           std::sin(angle) * y[1] + std::cos(angle) * y[2]});
+  }
+
+  /// The displacement @p u(body, place in the body) at nodes.
+  template <typename Field>
+  mortise::Vector
+  at_nodes(const Discretisation &discretisation, const Field &u)
+  {
+    const auto linear =
+      linear_displacements(discretisation.bodies(),
+                           [&](const unsigned int body,
+                               const unsigned int c,
+                               const Point<dim>  &x) { return u(body, x)[c]; });
+    return discretisation.linear_system().bulk->values_at_nodes(
+      [&](const auto body, const auto dof) {
+        return linear[body].displacement(dof);
+      });
+  }
+
   void
   check(const bool tetrahedra, const unsigned int degree)
   {
-    constexpr double  step = 1e-5;
     const MPI_Comm    comm = MPI_COMM_WORLD;
     EquationsOfScene  given(scene(tetrahedra, degree), {}, comm);
     Discretisation   &discretisation = given.discretisation;
@@ -82,22 +113,10 @@ namespace
       std::string(tetrahedra ? "tetrahedra" : "hexahedra") + ", degree " +
       std::to_string(degree) + ": ";
     const BlockSystem &system = discretisation.linear_system();
-    const double       angle  = 0.7;
-    const auto         moved  = linear_displacements(
-      discretisation.bodies(),
-      [&](const unsigned int, const unsigned int c, const Point<dim> &x) {
-        const Point<dim> y(1.2 * x[0] + 0.1 * x[1], 0.9 * x[1], 0.7 * x[2]);
-        const double     there[dim] = {y[0],
-                                       std::cos(angle) * y[1] -
-                                         std::sin(angle) * y[2],
-                                       std::sin(angle) * y[1] +
-                                         std::cos(angle) * y[2]};
-        return there[c] - x[c];
-      });
-    SystemVector at = system.zero_vector();
+    SystemVector       at     = system.zero_vector();
     at.displacement =
-      system.bulk->values_at_nodes([&](const auto body, const auto dof) {
-        return moved[body].displacement(dof);
+      at_nodes(discretisation, [](const unsigned int, const Point<dim> &x) {
+        return place(x) - Tensor<1, dim>(x);
       });
     const auto pair = [&](const mortise::Vector &displacement) {
       SystemVector x = system.zero_vector();
@@ -157,6 +176,98 @@ namespace
             difference(product, forces[0]),
             5e-5);
   }
+
+  /// With friction, at fixed multipliers: differences for a slave that is moved
+  /// along, where frames stay; and a rotation about axes in the surface, which
+  /// turns all forces.
+  void
+  check_friction(const bool tetrahedra, const unsigned int degree)
+  {
+    const MPI_Comm     comm = MPI_COMM_WORLD;
+    EquationsOfScene   given(scene(tetrahedra, degree, true), {}, comm);
+    Discretisation    &discretisation = given.discretisation;
+    const BlockSystem &system         = discretisation.linear_system();
+    const std::string  of             = std::string("friction, ") +
+                           (tetrahedra ? "tetrahedra" : "hexahedra") +
+                           ", degree " + std::to_string(degree) + ": ";
+    const auto &constrained = system.bulk->levels().front().constrained;
+    const mortise::Vector at =
+      at_nodes(discretisation, [](const unsigned int, const Point<dim> &x) {
+        return place(x) - Tensor<1, dim>(x);
+      });
+    mortise::Vector multiplier;
+    const auto      forces = [&](const mortise::Vector &displacement) {
+      SystemVector x = system.zero_vector();
+      x.displacement = displacement;
+      discretisation.pair(discretisation.solutions(SceneLoad(), x));
+      if (multiplier.size() == 0)
+        {
+          multiplier = random(system.zero_vector().multiplier, 2.);
+          for (double &value : multiplier)
+            value += 2.;
+        }
+      mortise::Vector result(at);
+      result = 0.;
+      system.constraint.Tvmult_add(result, multiplier);
+      return result;
+    };
+    const auto product = [&](const mortise::Vector &direction) {
+      const mortise::Vector forces_here = forces(at);
+      mortise::Vector       result(at);
+      force_stiffness(discretisation.interfaces().all(),
+                      multiplier,
+                      system.owned_displacement,
+                      comm)
+        .vmult(result, direction);
+      for (const unsigned int i : constrained)
+        result.local_element(i) = 0.;
+      return result;
+    };
+
+    const Tensor<1, dim> along(
+      {1., 0.5 * std::cos(angle), 0.5 * std::sin(angle)});
+    const mortise::Vector motion =
+      at_nodes(discretisation,
+               [&](const unsigned int body, const Point<dim> &) {
+                 return body == 1 ? along : Tensor<1, dim>();
+               });
+    mortise::Vector differences[2];
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        mortise::Vector there(at);
+        there.add(side == 0 ? step : -step, motion);
+        differences[side] = forces(there);
+      }
+    differences[0] -= differences[1];
+    differences[0] *= 0.5 / step;
+    verdict(of + "a slave that is moved along, beside differences",
+            difference(product(motion), differences[0]),
+            5e-5);
+
+    for (const Tensor<1, dim> &axis :
+         {Tensor<1, dim>({1., 0., 0.}),
+          Tensor<1, dim>({0., std::cos(angle), std::sin(angle)})})
+      {
+        const mortise::Vector turned =
+          product(at_nodes(discretisation,
+                           [&](const unsigned int, const Point<dim> &x) {
+                             return cross_product_3d(axis, place(x));
+                           }));
+        mortise::Vector wanted = forces(at);
+        for (unsigned int i = 0; i < wanted.locally_owned_size(); i += dim)
+          {
+            Tensor<1, dim> force;
+            for (unsigned int c = 0; c < dim; ++c)
+              force[c] = wanted.local_element(i + c);
+            force = cross_product_3d(axis, force);
+            for (unsigned int c = 0; c < dim; ++c)
+              wanted.local_element(i + c) = force[c];
+          }
+        verdict(of + "a rotation turns the forces",
+                difference(turned, wanted),
+                1e-8);
+      }
+  }
 } // namespace
 
 int
@@ -165,5 +276,8 @@ main(int argc, char *argv[])
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   for (const bool tetrahedra : {false, true})
     for (const unsigned int degree : {1, 2, 3})
-      check(tetrahedra, degree);
+      {
+        check(tetrahedra, degree);
+        check_friction(tetrahedra, degree);
+      }
 }

@@ -1,4 +1,4 @@
-// The stiffness of the normal forces of an interface that follows the bodies.
+// The stiffness of the forces of an interface that follows the bodies.
 //
 // Of a pressure p per undeformed area, p delta alpha is the work on a change of
 // the distance alpha, x_m(eta) = x_s(xi) + alpha n. Where the surfaces touch
@@ -10,7 +10,14 @@
 //
 // with the normal nu of the master into the slave's side, and its dual tangents
 // m^a, e^a = m^a - (m^a . n) / (nu . n) nu. Source: the second derivative of
-// alpha at alpha = 0, as in Hiermeier, Wall, Popp (2018).
+// alpha at alpha = 0, as in Hiermeier, Wall, Popp (2018). A traction t of
+// friction per undeformed area does the work t . (delta x_s - delta x_m), of
+// which the points of the master move, and turns with nu:
+//
+//   -t . (delta x_m),a T_a + (t . e^a) (V_a + b_ab T_b) nu . (delta x_s - delta
+//   x_m),
+//
+// which is not symmetric.
 #pragma once
 
 #include <mortise/mortar/coupling.h>

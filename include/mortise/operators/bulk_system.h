@@ -244,11 +244,13 @@ namespace mortise
     }
 
     /// Add the stiffness of the forces of interfaces to K, until the next
-    /// linearise().
+    /// linearise(). @p is_symmetric: is that?
     void
-    add_to_stiffness(SparseMatrix &&stiffness_of_interfaces)
+    add_to_stiffness(SparseMatrix &&stiffness_of_interfaces,
+                     const bool     is_symmetric)
     {
       of_interfaces = std::move(stiffness_of_interfaces);
+      positive      = positive && is_symmetric;
     }
 
     /// Forces by node, also at constrained components, of @p pressures at @p u,

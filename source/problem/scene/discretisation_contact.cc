@@ -75,8 +75,15 @@ namespace mortise
   void
   Discretisation::add_force_stiffness(const Vector &multiplier)
   {
-    system.bulk->add_to_stiffness(force_stiffness(
-      pairing->all(), multiplier, system.owned_displacement, run.comm));
+    bool is_symmetric = true;
+    for (const Coupling &coupling : pairing->all())
+      is_symmetric = is_symmetric &&
+                     !(coupling.is_directed() && coupling.law.has_friction());
+    system.bulk->add_to_stiffness(force_stiffness(pairing->all(),
+                                                  multiplier,
+                                                  system.owned_displacement,
+                                                  run.comm),
+                                  is_symmetric);
   }
 
   void
@@ -94,8 +101,8 @@ namespace mortise
           for (unsigned int r = 0; r < node.n_multipliers; ++r)
             {
               const unsigned int m = node.multipliers[r];
-              rhs.begin()[m] += node.areas[r] * node.gap() *
-                                node.kinematic_normal()[r];
+              rhs.begin()[m] +=
+                node.areas[r] * node.gap() * node.kinematic_normal()[r];
               if (closed.size() > 0 && coupling.is_displaced)
                 rhs.begin()[m] += closed.begin()[m];
             }

@@ -26,7 +26,8 @@ namespace mortise
     bool
     empty() const
     {
-      return !discretisation.interfaces().have_friction();
+      return !discretisation.interfaces().have_friction() ||
+             discretisation.linear_system().owned_multiplier.size() == 0;
     }
 
     /// Take the bounds of the time of @p data, and begin with the laws of the
@@ -163,8 +164,8 @@ namespace mortise
       return total_slip;
     }
 
-    /// By Coupling::number, the energy that nodes have dissipated which are none
-    /// any more.
+    /// By Coupling::number, the energy that nodes have dissipated which are
+    /// none any more.
     const std::vector<double> &
     dissipated_apart() const
     {
