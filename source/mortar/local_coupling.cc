@@ -7,6 +7,7 @@
 
 #include "along_normals.h"
 #include "independent_masters.h"
+#include "projected_products.h"
 
 namespace mortise
 {
