@@ -117,7 +117,7 @@ namespace mortise
 
   namespace
   {
-    /// All rows of nodes, with the entries @p own of @p rows by face.
+    /// The rows of @p rows by face. @p have_own_entries: each component?
     std::vector<MultiplierSpace::FaceMultipliers>
     by_face(const RowsOfNodes &rows, const bool have_own_entries)
     {

@@ -7,6 +7,7 @@
 #include <mortise/solvers/anderson.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <limits>
 #include <map>
@@ -120,12 +121,6 @@ namespace mortise
           steps.pop_front();
       }
 
-      void
-      forget()
-      {
-        steps.clear();
-      }
-
       /// The next iterate, the last result before. Collective.
       void
       apply(SystemVector &x, ByFace &multipliers) const
@@ -194,7 +189,7 @@ namespace mortise
       {
         Vector way(displacement);
         way -= begin;
-        moved = 2. * way.linfty_norm();
+        moved = 2. * std::sqrt(double(dim)) * way.linfty_norm();
       }
     discretisation.pair(discretisation.solutions(without_prescribed, x), moved);
     discretisation.set_gaps(*data, *load);

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """sliding.py MORTISE: contact that follows the bodies beside the same bodies with pairs that stay and with a tie. Writes its part of
-doc/measurements/deformed_contact.md: iterations by step and seconds of a ball that is pushed in a cup, and of a block that slides over another one."""
+doc/measurements/deformed_contact.md: iterations by step and seconds of a ball that is pushed in a cup, of a block that slides over another one,
+and of scenes with friction."""
+import math
 import os
 import re
 import sys
@@ -110,10 +112,33 @@ def slides(mortise):
     return rows
 
 
+def friction(mortise):
+    rows = ["| scene | p | unknowns | Newton, mean | most | seconds | ratio of forces, mean | largest deviation | from theory |", "|---" * 9 + "|"]
+    held = lambda step: math.hypot(*step["quantities"]["end"][:2]) * 200  # the pull at the other end is 1 / 200
+    along = lambda step: -step["quantities"]["die"][0] / step["quantities"]["die"][2]
+    driven = lambda step: step["quantities"]["axle"][0] / step["quantities"]["axle"][2]
+    for scene, bodies, degrees, first, ratio, theory in (("ironing", ("block", "die"), (1, 2, 3), 1.19, along, "0.3, but for the front of the die"),
+                                                         ("belt", ("drum", "belt"), (2, 3), 1.09, held, "1.5837"), ("rolling", ("track", "wheel"), (1, 2), 1.69, driven, "")):
+        for degree in degrees:
+            code, summary, _ = outcome(mortise, scene, *(f"Body {body}/Degree={degree}" for body in bodies))
+            if code != 0:
+                rows.append(f"| `{scene}` | {degree} | - | - | - | - | - | - | {theory} |")
+                continue
+            steps = [step for step in summary["steps"] if step["time"] > first]
+            iterations = [step["solver"]["newton_iterations"] for step in steps]
+            ratios = [ratio(step) for step in steps]
+            mean = sum(ratios) / len(ratios)
+            rows.append(f"| `{scene}` | {degree} | {last(summary)['dofs']['total']} | {sum(iterations) / len(iterations):.1f} | {max(iterations)} | "
+                        f"{summary['timings_s']['total']:.1f} | {mean:.4f} | {max(abs(one - mean) for one in ratios):.4f} | {theory} |")
+            print(rows[-1], flush=True)
+    return rows
+
+
 def main(mortise):
     text = ["### A ball in a cup", "", "An octant of a hollow ball (radii 0.5 and 1) is pushed by 0.05, 0.15 and 0.25 in four steps against a cup of the same neo-Hookean material (radii 1.02 and 1.5).", ""]
     text += balls(mortise) + ["", "### A block slides over another one", "", "`tests/field/block_slides_on_rubber.prm`: from t = 2 on, four lengths of the block, over 22 faces of the longer one, of which each is less than one of its own.", ""]
-    write_part("deformed_contact.md", "three dimensions", "\n".join(text + slides(mortise)))
+    text += slides(mortise) + ["", "### Friction", "", "Scenes of `prm/` with their degrees changed; iterations and ratios of tangential to normal forces, of the forces at the ends of the belt, in steps in which all slips or rolls.", ""]
+    write_part("deformed_contact.md", "three dimensions", "\n".join(text + friction(mortise)))
 
 
 if __name__ == "__main__":
