@@ -294,9 +294,9 @@ namespace mortise
            ++e)
         {
           const auto column = of_columns.columns[e];
-          from = from + 1 < numbers.end() && from[1] == column ?
-                   from + 1 :
-                   std::lower_bound(from, numbers.end(), column);
+          from              = from + 1 < numbers.end() && from[1] == column ?
+                                from + 1 :
+                                std::lower_bound(from, numbers.end(), column);
           places.push_back(from - numbers.begin());
         }
     std::vector<double>       sums(numbers.size());

@@ -235,10 +235,8 @@ namespace mortise
         for (const auto &[multiplier, row, weight] : all.back().frames)
           frames.push_back({multiplier, row, weight});
       }
-    return {assemble_blocks(couplings,
-                            by_face,
-                            {nodes, owned, partition.comm},
-                            across),
+    return {assemble_blocks(
+              couplings, by_face, {nodes, owned, partition.comm}, across),
             rows,
             SparseMatrix(partition.owned_multiplier,
                          owned,

@@ -18,10 +18,10 @@ namespace mortise
         const LocalCoupling &local = couplings[s];
         if (local.partners.empty())
           continue;
-        const FaceTrace    &trace = interface.slave().traces[s];
-        const TraceBasis   &basis = trace.basis();
-        const unsigned int  n     = local.constraint.m();
-        FullMatrix<double>  values(n, n); // at nodes, from the integrals
+        const FaceTrace   &trace = interface.slave().traces[s];
+        const TraceBasis  &basis = trace.basis();
+        const unsigned int n     = local.constraint.m();
+        FullMatrix<double> values(n, n); // at nodes, from the integrals
         face_nodal_basis(trace.shape, trace.degree)
           .values.mmult(values, to_functions(interface, local, s));
         for (unsigned int k = 0; k < n; ++k)

@@ -61,8 +61,7 @@ namespace mortise
           FullMatrix<double> inverse;
           if (values)
             {
-              inverse =
-                to_functions(*coupling.interface, coupling.local[s], s);
+              inverse = to_functions(*coupling.interface, coupling.local[s], s);
               face.opening.resize(n);
               for (unsigned int i = 0; i < n; ++i)
                 for (unsigned int j = 0; j < n; ++j)

@@ -283,8 +283,8 @@ namespace mortise
     const BlockSystem &system = discretisation.linear_system();
     before    = last.history.empty() ? system.bulk->no_history() : last.history;
     reference = size = size_before = contraction = 0.;
-    stays                          = false;
-    at_last_state                  = true;
+    stays                                        = false;
+    at_last_state                                = true;
     linearised_at.reset();
     if (!norm)
       norm = std::make_unique<ScaledResidual>(system);
@@ -292,7 +292,7 @@ namespace mortise
       extrapolate(x);
     why      = "Newton's method stagnates";
     is_wrong = false;
-    newton = follows() ? follow(last, x) : improve(most_newton_iterations, x);
+    newton   = follows() ? follow(last, x) : improve(most_newton_iterations, x);
     if (!newton.converged)
       least_cost = 0.; // preconditioners are of a state that is left
 

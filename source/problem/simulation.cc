@@ -223,7 +223,7 @@ namespace mortise
       adaptivity            ? ". The results of cycle " +
                      std::to_string(summary.steps.back().cycle) +
                      " are written" :
-                              ". The results up to t = " + RunLog::number(state.time) +
+                   ". The results up to t = " + RunLog::number(state.time) +
                      " are written";
     if (!report.converged && equations->has_no_answer())
       throw InputError("No equilibrium was found" + because() + results);

@@ -12,7 +12,7 @@ namespace mortise
   {
     /// Of singular values, beside the largest.
     constexpr double    rounding = 1e-12;
-    const unsigned int  m        = products.m() - 1; // differences from the newest
+    const unsigned int  m = products.m() - 1; // differences from the newest
     std::vector<double> weights(m + 1, 0.);
     weights[m] = 1.;
     if (m == 0)
@@ -23,8 +23,8 @@ namespace mortise
       {
         rhs(a) = products(m, m) - products(a, m);
         for (unsigned int b = 0; b < m; ++b)
-          of_differences(a, b) = products(m, m) - products(a, m) -
-                                 products(m, b) + products(a, b);
+          of_differences(a, b) =
+            products(m, m) - products(a, m) - products(m, b) + products(a, b);
       }
     of_differences.compute_inverse_svd(rounding);
     of_differences.vmult(solved, rhs);

@@ -72,6 +72,6 @@ namespace mortise
   private:
     using Position = std::array<double, 3>;
     std::vector<std::vector<std::pair<Position, ContactRecord>>> by_surface;
-    std::vector<double>                                          dissipated_apart;
+    std::vector<double> dissipated_apart;
   };
 } // namespace mortise

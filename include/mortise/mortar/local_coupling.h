@@ -103,7 +103,8 @@ namespace mortise
 
   /// By slave face and node, unit vectors: the direction of pressures that are
   /// normal to the master at each point, projected onto the polynomials of the
-  /// face, or their mean where little of it is covered; empty without a partner.
+  /// face, or their mean where little of it is covered; empty without a
+  /// partner.
   std::vector<std::vector<dealii::Tensor<1, dim>>>
   normals_of_master(const InterfaceHandler           &interface,
                     const std::vector<LocalCoupling> &couplings);

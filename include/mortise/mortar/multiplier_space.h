@@ -207,12 +207,12 @@ namespace mortise
 
     const Body                     &body;
     std::vector<std::vector<Frame>> frames; ///< by face, see FaceMultipliers
-    unsigned int      n_directions;         ///< dim, or 1: along the normals
-    bool              one_sided;
-    bool              directed; ///< see LocalCoupling::is_directed()
+    unsigned int n_directions;              ///< dim, or 1: along the normals
+    bool         one_sided;
+    bool         directed; ///< see LocalCoupling::is_directed()
     /// By face and node, if tractions across them have multipliers, too.
     std::vector<std::vector<dealii::Tensor<1, dim>>> normals;
-    std::vector<bool> has_dual; ///< by face
+    std::vector<bool>                                has_dual; ///< by face
     /// By face: have all components the same functions, since the pressure at a
     /// node of friction is a sum of several?
     std::vector<bool>                                together;

@@ -26,7 +26,8 @@ namespace mortise
                MPI_Comm                     comm);
 
     /// By node of contact of @p couplings, the present ones, with an entry for
-    /// each multiplier: the mean of x_master - x_slave, with the master's points
+    /// each multiplier: the mean of x_master - x_slave, with the master's
+    /// points
     /// that were partners, where the bodies are at @p displacement. On faces
     /// that had no partner it is that of the present ones. Collective.
     std::vector<dealii::Tensor<1, dim>>

@@ -222,8 +222,8 @@ namespace mortise
     std::optional<SystemVector> linearised_at; ///< of this step, or nothing yet
     double                      reference = 0.; ///< size of forces
     double       size = 0., size_before = 0.;   ///< of iterates' residuals
-    double       contraction = 0.; ///< of the last iteration; 0: none yet
-    double       time_of_load = 0.;             ///< with arc-length control
+    double       contraction  = 0.;    ///< of the last iteration; 0: none yet
+    double       time_of_load = 0.;    ///< with arc-length control
     bool         balanced     = false; ///< the iterate, but for its distance
     bool         stays = false; ///< linear solves do not improve the iterate
     unsigned int last_iterations = 0;

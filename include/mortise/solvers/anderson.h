@@ -1,4 +1,5 @@
-// Anderson's acceleration of a fixed-point iteration. Source: Walker, Ni (2011).
+// Anderson's acceleration of a fixed-point iteration. Source: Walker, Ni
+// (2011).
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>

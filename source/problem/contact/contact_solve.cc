@@ -30,9 +30,8 @@ namespace mortise
     // coarse levels go on with the ties that they saw, which costs next to no
     // iteration (doc/measurements/contact.md) as long as about as many hold
     const std::uint64_t n_held = n_holding(statuses);
-    shows =
-      !n_shown || n_held > 2 * *n_shown ||
-      (tolerance == asked && 2 * n_held < *n_shown);
+    shows                      = !n_shown || n_held > 2 * *n_shown ||
+            (tolerance == asked && 2 * n_held < *n_shown);
     const bool repaired = std::exchange(other_pairs, false);
     if (shows)
       show();

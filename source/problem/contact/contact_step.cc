@@ -98,7 +98,7 @@ namespace mortise
         sets = 1; // the one that predict() chose
         return 1.;
       }
-    const bool   is_last = tolerance == asked;
+    const bool is_last = tolerance == asked;
     // what a linear solve leaves is no reason to turn
     const double            accuracy = std::max(least_accuracy, tolerance);
     const Vector            weighted = discretisation.weighted_gaps(*load, x);

@@ -28,9 +28,8 @@ namespace mortise
         {
           const ContactNode   &of     = *node.contact;
           const Tensor<1, dim> normal = of.kinematic_normal(),
-                               moved =
-                                 of.opening - openings[i];
-          node.origin = Tensor<1, dim>();
+                               moved  = of.opening - openings[i];
+          node.origin                 = Tensor<1, dim>();
           node.origin =
             slip(node, weighted_gaps) - (moved - (normal * moved) * normal);
         }

@@ -259,7 +259,8 @@ namespace mortise
       normals = Utilities::MPI::sum(normals, step.run.comm);
       Utilities::MPI::sum(counts, step.run.comm, counts);
       const double face = std::sqrt(interface.report().slave_area / counts[0]);
-      if (!coupling.is_displaced && slip > face && normals.norm() < (1. - rounding) * counts[1])
+      if (!coupling.is_displaced && slip > face &&
+          normals.norm() < (1. - rounding) * counts[1])
         step.run.log.warning(
           "interface " + interface.name() + ": the bodies slip by up to " +
           RunLog::number(slip) + ", more than a face of the slave, about " +

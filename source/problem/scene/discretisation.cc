@@ -74,9 +74,7 @@ namespace mortise
                                           system.owned_multiplier,
                                           run.comm};
         system.constraint =
-          assemble_by_node(all,
-                           partition,
-                           pairing->have_frames());
+          assemble_by_node(all, partition, pairing->have_frames());
         system.constraint.constrain(system.bulk->levels().front().constrained);
         if (pairing->have_springs())
           system.spring_compliance = assemble_compliance(all, partition);

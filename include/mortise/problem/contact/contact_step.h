@@ -235,7 +235,7 @@ namespace mortise
     unsigned int          iterations = 0; ///< of the last set
     /// Nodes that hold in the penalties of coarse levels.
     std::optional<std::uint64_t> n_shown;
-    bool shows = false; ///< is the next one to be in these?
+    bool shows       = false; ///< is the next one to be in these?
     bool other_pairs = false; ///< has the preconditioner
     /// The most of a set that needed it to be so.
     unsigned int iterations_when_shown = 0;

@@ -213,7 +213,7 @@ namespace mortise
 
     const RunContext                &run;
     const SceneSpaces               &spaces;
-    const std::vector<BodySolution> *displaced; ///< for the constructor
+    const std::vector<BodySolution> *displaced;    ///< for the constructor
     const double                     least_search; ///< likewise
     std::vector<InterfaceParameters> interfaces;
     std::vector<Coupling>            couplings;
