@@ -6,6 +6,8 @@
 
 #include <mortise/mortar/coupling.h>
 
+#include <array>
+
 namespace mortise
 {
   /// Sum over the functions of a face that are not zero on constants: those
@@ -28,6 +30,18 @@ namespace mortise
     return on_constants(coupling.local[s].constraint,
                         i,
                         coupling.interface->slave().traces[s].basis());
+  }
+
+  /// The same of integrals with d, see LocalCoupling::directed.
+  inline dealii::Tensor<1, dim>
+  on_constants(const std::array<dealii::FullMatrix<double>, dim> &directed,
+               const unsigned int                                 i,
+               const TraceBasis                                  &basis)
+  {
+    dealii::Tensor<1, dim> sum;
+    for (unsigned int c = 0; c < dim; ++c)
+      sum[c] = on_constants(directed[c], i, basis);
+    return sum;
   }
 
   /// int psi_i of slave face @p s less that of its partners.

@@ -2,6 +2,7 @@
 #include <mortise/mortar/local_coupling.h>
 #include <mortise/mortar/nodal_block.h>
 
+#include "multiplier_sums.h"
 #include "projection_on_faces.h"
 
 namespace mortise
@@ -28,10 +29,7 @@ namespace mortise
           {
             Tensor<1, dim> sum;
             for (unsigned int i = 0; i < n; ++i)
-              for (unsigned int v = 0; v < basis.n_vertices(); ++v)
-                for (unsigned int c = 0; c < dim; ++c)
-                  sum[c] += values(k, i) *
-                            local.directed[c](i, basis.vertex_function(v));
+              sum += values(k, i) * on_constants(local.directed, i, basis);
             result[s].push_back(sum / sum.norm());
           }
       }

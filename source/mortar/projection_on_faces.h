@@ -4,6 +4,8 @@
 
 #include <mortise/mortar/local_coupling.h>
 
+#include "multiplier_sums.h"
+
 namespace mortise
 {
   /// The matrix that gives the coefficients in the functions N of @p local, of
@@ -25,9 +27,8 @@ namespace mortise
       }
     const TraceBasis &basis = interface.slave().traces[s].basis();
     double            area  = 0.;
-    for (unsigned int v = 0; v < basis.n_vertices(); ++v)
-      for (unsigned int i = 0; i < n; ++i)
-        area += local.constraint(i, basis.vertex_function(v));
+    for (unsigned int i = 0; i < n; ++i)
+      area += on_constants(local.constraint, i, basis);
     for (unsigned int v = 0; v < basis.n_vertices(); ++v)
       for (unsigned int i = 0; i < n; ++i)
         result(basis.vertex_function(v), i) = 1. / area;

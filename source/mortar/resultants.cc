@@ -44,9 +44,9 @@ namespace mortise
       Tensor<1, dim>
       force(const unsigned int i) const
       {
-        return force(local.directed,
-                     i,
-                     coupling.interface->slave().traces[s].basis());
+        return on_constants(local.directed,
+                            i,
+                            coupling.interface->slave().traces[s].basis());
       }
 
       /// The same less that on the master.
@@ -55,10 +55,10 @@ namespace mortise
       {
         Tensor<1, dim> result = force(i);
         for (const auto &partner : local.partners)
-          result -=
-            force(partner.directed,
-                  i,
-                  coupling.interface->master_traces()[partner.master].basis());
+          result -= on_constants(
+            partner.directed,
+            i,
+            coupling.interface->master_traces()[partner.master].basis());
         return result;
       }
 
@@ -78,17 +78,6 @@ namespace mortise
       }
 
     private:
-      static Tensor<1, dim>
-      force(const std::array<FullMatrix<double>, dim> &directed,
-            const unsigned int                         i,
-            const TraceBasis                          &basis)
-      {
-        Tensor<1, dim> result;
-        for (unsigned int c = 0; c < dim; ++c)
-          result[c] = on_constants(directed[c], i, basis);
-        return result;
-      }
-
       const Coupling                   &coupling;
       const unsigned int                s;
       const LocalCoupling              &local;
