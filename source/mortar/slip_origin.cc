@@ -10,15 +10,6 @@ namespace mortise
 {
   using namespace dealii;
 
-  namespace
-  {
-    bool
-    has_slip(const Coupling &coupling)
-    {
-      return coupling.is_displaced && coupling.law.has_friction();
-    }
-  } // namespace
-
   SlipOrigin::SlipOrigin(const std::vector<Coupling> &couplings,
                          const IndexSet              &owned_displacement,
                          const Vector                &displacement,
@@ -28,7 +19,7 @@ namespace mortise
   {
     unsigned int n_rows = 0;
     for (const Coupling &coupling : couplings)
-      if (has_slip(coupling))
+      if (coupling.has_following_friction())
         {
           std::vector<Face> &of_slave = faces[coupling.number];
           of_slave.resize(coupling.local.size());
@@ -47,7 +38,7 @@ namespace mortise
     const auto for_each_block = [&](const bool values, const auto &visit) {
       for_each_face(
         couplings, [&](const Coupling &coupling, const unsigned int s) {
-          if (!has_slip(coupling))
+          if (!coupling.has_following_friction())
             return;
           const LocalCoupling &local = coupling.local[s];
           const unsigned int   n     = local.constraint.m();
@@ -117,7 +108,7 @@ namespace mortise
       {
         const unsigned int begin = result.size();
         result.resize(begin + coupling.contact_nodes.size());
-        if (!has_slip(coupling))
+        if (!coupling.has_following_friction())
           continue;
         const std::vector<Face> &of_slave = faces.at(coupling.number);
         Vector sum = make_sums(1, coupling, owned_multiplier, comm)[0];

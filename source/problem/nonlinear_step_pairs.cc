@@ -64,7 +64,7 @@ namespace mortise
             std::vector<std::vector<double>> coefficients,
             const bool                       to_space)
     {
-      if (!coupling.is_directed() || !coupling.law.has_friction())
+      if (!coupling.has_following_friction())
         return coefficients;
       for (unsigned int s = 0; s < coefficients.size(); ++s)
         {

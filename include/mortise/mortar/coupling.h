@@ -40,6 +40,13 @@ namespace mortise
              (law.constrained == ConstrainedDirections::normal ||
               law.is_one_sided());
     }
+
+    /// With friction, do its pairs follow the bodies?
+    bool
+    has_following_friction() const
+    {
+      return is_directed() && law.has_friction();
+    }
   };
 
   /// By coupling and slave face; after the integration of all interfaces that

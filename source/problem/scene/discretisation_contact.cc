@@ -77,8 +77,7 @@ namespace mortise
   {
     bool is_symmetric = true;
     for (const Coupling &coupling : pairing->all())
-      is_symmetric = is_symmetric &&
-                     !(coupling.is_directed() && coupling.law.has_friction());
+      is_symmetric = is_symmetric && !coupling.has_following_friction();
     system.bulk->add_to_stiffness(force_stiffness(pairing->all(),
                                                   multiplier,
                                                   system.owned_displacement,

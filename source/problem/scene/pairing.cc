@@ -137,7 +137,7 @@ namespace mortise
                            coupling.frames :
                            std::vector<std::vector<Frame>>());
     // the plane of slip
-    if (coupling.is_directed() && law.has_friction())
+    if (coupling.has_following_friction())
       coupling.frames =
         slave_frames(*spaces.bodies[given.slave.body],
                      coupling.interface->slave(),
