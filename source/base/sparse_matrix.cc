@@ -104,6 +104,25 @@ namespace mortise
         }
       return result;
     }
+    void
+    sort_unique(std::vector<Index> &indices)
+    {
+      std::sort(indices.begin(), indices.end());
+      indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    }
+
+    /// Sorts a few ascending runs, one after the other.
+    void
+    merge_runs(std::vector<unsigned int> &list)
+    {
+      for (auto end = std::is_sorted_until(list.begin(), list.end());
+           end != list.end();)
+        {
+          const auto next = std::is_sorted_until(end, list.end());
+          std::inplace_merge(list.begin(), end, next);
+          end = next;
+        }
+    }
   } // namespace
 
   IndexSet
@@ -126,6 +145,15 @@ namespace mortise
          ++range)
       result.add_range(n * *range->begin(), n * (range->last() + 1));
     result.compress();
+    return result;
+  }
+
+  IndexSet
+  nodes_of(const IndexSet &set, const unsigned int n)
+  {
+    IndexSet result(set.size() / n);
+    if (const Index size = set.n_elements(); size > 0)
+      result.add_range(first_of(set) / n, (first_of(set) + size) / n);
     return result;
   }
 
@@ -186,8 +214,7 @@ namespace mortise
         else
           others.push_back(column);
     });
-    std::sort(others.begin(), others.end());
-    others.erase(std::unique(others.begin(), others.end()), others.end());
+    sort_unique(others);
     n_below =
       std::lower_bound(others.begin(), others.end(), first) - others.begin();
     column_indices.assign(others.begin(), others.begin() + n_below);
@@ -283,24 +310,23 @@ namespace mortise
   {
     Assert(n_components == 1 && B.n_components == 1, ExcNotImplemented());
     const CompressedRows of_columns = B.fetch(column_indices);
-    std::vector<Index>   numbers    = of_columns.columns;
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    const IndexSet       unknowns   = B.owned_unknowns();
+    const Index          n = unknowns.n_elements(), first = first_of(unknowns);
+    // owned columns, then the others
+    std::vector<Index> others;
+    for (const Index column : of_columns.columns)
+      if (column < first || column >= first + n)
+        others.push_back(column);
+    sort_unique(others);
     std::vector<unsigned int> places;
-    // columns ascend within a row
-    for (unsigned int i = 0; i + 1 < of_columns.begin.size(); ++i)
-      for (auto [e, from] = std::pair(of_columns.begin[i], numbers.begin());
-           e < of_columns.begin[i + 1];
-           ++e)
-        {
-          const auto column = of_columns.columns[e];
-          from              = from + 1 < numbers.end() && from[1] == column ?
-                                from + 1 :
-                                std::lower_bound(from, numbers.end(), column);
-          places.push_back(from - numbers.begin());
-        }
-    std::vector<double>       sums(numbers.size());
-    std::vector<bool>         is_entry(numbers.size());
+    for (const Index column : of_columns.columns)
+      places.push_back(
+        column >= first && column < first + n ?
+          column - first :
+          n + (std::lower_bound(others.begin(), others.end(), column) -
+               others.begin()));
+    std::vector<double>       sums(n + others.size());
+    std::vector<char>         is_entry(sums.size());
     std::vector<unsigned int> of_row;
     CompressedRows            result;
     for (unsigned int i = 0; i < n_rows(); ++i)
@@ -316,10 +342,11 @@ namespace mortise
               is_entry[places[e]] = true;
               sums[places[e]] += own.values[k] * of_columns.values[e];
             }
-        std::sort(of_row.begin(), of_row.end());
+        merge_runs(of_row);
         for (const unsigned int place : of_row)
           {
-            result.columns.push_back(numbers[place]);
+            result.columns.push_back(place < n ? first + place :
+                                                 others[place - n]);
             result.values.push_back(sums[place]);
             sums[place]     = 0.;
             is_entry[place] = false;

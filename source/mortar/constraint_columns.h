@@ -8,19 +8,6 @@
 
 namespace mortise
 {
-  /// Of the owned @p displacements.
-  inline dealii::IndexSet
-  nodes_of(const dealii::IndexSet &displacements)
-  {
-    dealii::IndexSet nodes(displacements.size() / dim);
-    if (const auto n = displacements.n_elements(); n > 0)
-      {
-        const auto first = displacements.nth_index_in_set(0);
-        nodes.add_range(first / dim, (first + n) / dim);
-      }
-    return nodes;
-  }
-
   /// Nodes, where some of the face hang those that they hang on: the matrix
   /// also has the columns of components that are prescribed.
   class NodalColumns

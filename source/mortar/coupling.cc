@@ -195,7 +195,7 @@ namespace mortise
                    const CouplingPartition     &partition,
                    const bool                   with_frames)
   {
-    const IndexSet nodes = nodes_of(partition.owned_displacement);
+    const IndexSet nodes = nodes_of(partition.owned_displacement, dim);
     std::vector<CouplingMatrix::Row> rows;
     const auto                       add_rows =
       [&rows](const std::vector<CouplingMatrix::Row> &more) {

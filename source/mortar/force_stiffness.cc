@@ -14,23 +14,21 @@ namespace mortise
 
   namespace
   {
-    /// The displacements of both faces of a pair: slave first, by component.
+    /// The functions of both faces of a pair, the slave's first, in nodes.
     ExpansionList
-    displacements(const FaceTrace &slave, const FaceTrace &master)
+    functions(const FaceTrace &slave, const FaceTrace &master)
     {
       ExpansionList result;
       for (const FaceTrace *side : {&slave, &master})
         {
           const NodalColumns columns(*side);
           const Expansion    nodes = columns.component();
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int k = 0; k < side->n_functions(); ++k)
-              {
-                for (unsigned int e = nodes.begin[k]; e < nodes.begin[k + 1];
-                     ++e)
-                  result.add(dim * nodes.index[e] + c, nodes.weight[e]);
-                result.close();
-              }
+          for (unsigned int k = 0; k < side->n_functions(); ++k)
+            {
+              for (unsigned int e = nodes.begin[k]; e < nodes.begin[k + 1]; ++e)
+                result.add(nodes.index[e], nodes.weight[e]);
+              result.close();
+            }
         }
       return result;
     }
@@ -142,7 +140,7 @@ namespace mortise
         of_master = NodalColumns(master).in_columns(of_master);
         for (auto &of_direction : slopes)
           of_direction = NodalColumns(master).in_columns(of_direction);
-        const unsigned int n = dim * (n_s + n_m);
+        const unsigned int n_f = n_s + n_m, n = dim * n_f;
         // V_1, V_2, T_1, T_2 at each point, and what each is multiplied with
         FullMatrix<double> rows(4 * n_q, n), others(4 * n_q, n), result(n, n);
         std::vector<Geometry> geometry;
@@ -170,11 +168,11 @@ namespace mortise
               for (unsigned int c = 0; c < dim; ++c)
                 {
                   for (unsigned int k = 0; k < n_s; ++k)
-                    rows(4 * q + 2 + a, c * n_s + k) =
+                    rows(4 * q + 2 + a, c * n_f + k) =
                       at.dual[a][c] * of_slave(q, k);
                   for (unsigned int k = 0; k < n_m; ++k)
                     {
-                      const unsigned int j   = dim * n_s + c * n_m + k;
+                      const unsigned int j   = c * n_f + n_s + k;
                       rows(4 * q + a, j)     = at.nu[c] * slopes[a](q, k);
                       rows(4 * q + 2 + a, j) = -at.dual[a][c] * of_master(q, k);
                     }
@@ -198,10 +196,10 @@ namespace mortise
                 for (unsigned int c = 0; c < dim; ++c)
                   {
                     for (unsigned int k = 0; k < n_s; ++k)
-                      normal_motion[c * n_s + k] =
+                      normal_motion[c * n_f + k] =
                         geometry[q].nu[c] * of_slave(q, k);
                     for (unsigned int k = 0; k < n_m; ++k)
-                      normal_motion[dim * n_s + c * n_m + k] =
+                      normal_motion[c * n_f + n_s + k] =
                         -geometry[q].nu[c] * of_master(q, k);
                   }
                 turn_to_friction(points.weight[q],
@@ -213,7 +211,7 @@ namespace mortise
                 for (unsigned int a = 0; a < 2; ++a)
                   for (unsigned int c = 0; c < dim; ++c)
                     for (unsigned int k = 0; k < n_m; ++k)
-                      rows(4 * q + a, dim * n_s + c * n_m + k) =
+                      rows(4 * q + a, c * n_f + n_s + k) =
                         across[q][c] * slopes[a](q, k);
               }
             rows.Tmmult(result, others, true);
@@ -342,7 +340,7 @@ namespace mortise
                   const IndexSet              &owned_displacement,
                   const MPI_Comm               comm)
   {
-    RowAssembler assembler(owned_displacement, owned_displacement);
+    RowAssembler assembler(owned_displacement, owned_displacement, dim);
     std::vector<std::vector<NodalTractions>> tractions;
     for (const Coupling &coupling : couplings)
       {
@@ -353,8 +351,8 @@ namespace mortise
             for (const auto &partner : coupling.local[s].partners)
               {
                 const ExpansionList all =
-                  displacements(interface.slave().traces[s],
-                                interface.master_traces()[partner.master]);
+                  functions(interface.slave().traces[s],
+                            interface.master_traces()[partner.master]);
                 assembler.record(all(), all.size(), all(), all.size());
               }
       }
@@ -376,7 +374,7 @@ namespace mortise
                            master,
                            couplings[i].local[s],
                            tractions[i][s]);
-            const ExpansionList all = displacements(slave, master);
+            const ExpansionList all = functions(slave, master);
             assembler.add(all(), all(), of_pair(points), 1., false);
           });
         }

@@ -21,17 +21,21 @@ namespace mortise
     }
   } // namespace
 
-  RowAssembler::RowAssembler(const IndexSet &rows, const IndexSet &columns)
+  RowAssembler::RowAssembler(const IndexSet    &rows,
+                             const IndexSet    &columns,
+                             const unsigned int n_components)
     : rows(rows)
     , columns(columns)
-    , number_of_owned(rows.n_elements(), -1)
+    , n_components(n_components)
+    , nodes(nodes_of(rows, n_components))
+    , number_of_owned(nodes.n_elements(), -1)
   {}
 
   int
   RowAssembler::find(const Index row) const
   {
-    if (rows.is_element(row))
-      return number_of_owned[rows.index_within_set(row)];
+    if (nodes.is_element(row))
+      return number_of_owned[nodes.index_within_set(row)];
     const auto other = number_of_other.find(row);
     return other == number_of_other.end() ? -1 :
                                             static_cast<int>(other->second);
@@ -45,8 +49,8 @@ namespace mortise
       return known;
     const unsigned int number = sets_of.size();
     sets_of.emplace_back();
-    if (rows.is_element(row))
-      number_of_owned[rows.index_within_set(row)] = static_cast<int>(number);
+    if (nodes.is_element(row))
+      number_of_owned[nodes.index_within_set(row)] = static_cast<int>(number);
     else
       number_of_other[row] = number;
     return number;
@@ -93,7 +97,7 @@ namespace mortise
           }
         pattern_of.push_back(patterns.size() - 1);
         begin.push_back(n_values);
-        n_values += patterns.back().size();
+        n_values += n_components * n_components * patterns.back().size();
       }
     values.resize(n_values);
     sets    = {};
@@ -107,22 +111,31 @@ namespace mortise
                     const double              factor,
                     const bool                transposed)
   {
-    const unsigned int       n_rows    = transposed ? block.n() : block.m();
-    const unsigned int       n_columns = transposed ? block.m() : block.n();
-    const unsigned int      *at        = &column.begin[column.offset];
-    const unsigned int       first     = at[0];
+    const unsigned int n_rows =
+                         (transposed ? block.n() : block.m()) / n_components,
+                       n_columns =
+                         (transposed ? block.m() : block.n()) / n_components;
+    const unsigned int      *at    = &column.begin[column.offset];
+    const unsigned int       first = at[0];
     const std::vector<Index> wanted(column.index.begin() + first,
                                     column.index.begin() + at[n_columns]);
-    std::vector<double>      sums(wanted.size());
+    // by component of the row, and column
+    std::vector<double> sums(n_components * n_components * wanted.size());
     const std::vector<unsigned int> *positions  = nullptr;
     unsigned int                     n_patterns = 0;
     int                              pattern    = -1; // that the places are in
     for (unsigned int i = 0; i < n_rows; ++i)
       {
-        for (unsigned int j = 0; j < n_columns; ++j)
-          for (unsigned int e = at[j]; e < at[j + 1]; ++e)
-            sums[e - first] =
-              column.weight[e] * (transposed ? block(j, i) : block(i, j));
+        double *sum = sums.data();
+        for (unsigned int c = 0; c < n_components; ++c)
+          for (unsigned int j = 0; j < n_columns; ++j)
+            for (unsigned int e = at[j]; e < at[j + 1]; ++e)
+              for (unsigned int d = 0; d < n_components; ++d)
+                {
+                  const unsigned int a = c * n_rows + i, b = d * n_columns + j;
+                  *sum++ =
+                    column.weight[e] * (transposed ? block(b, a) : block(a, b));
+                }
         for (unsigned int e = row.begin[row.offset + i];
              e < row.begin[row.offset + i + 1];
              ++e)
@@ -134,10 +147,16 @@ namespace mortise
                 positions =
                   &find_positions(wanted, patterns[pattern], n_patterns++);
               }
-            const double scale = factor * row.weight[e];
-            double      *to    = values.data() + begin[r];
-            for (unsigned int k = 0; k < sums.size(); ++k)
-              to[(*positions)[k]] += scale * sums[k];
+            const double  scale = factor * row.weight[e];
+            double       *to    = values.data() + begin[r];
+            const double *from  = sums.data();
+            for (unsigned int c = 0; c < n_components; ++c)
+              {
+                for (const unsigned int position : *positions)
+                  for (unsigned int d = 0; d < n_components; ++d)
+                    to[n_components * position + d] += scale * *from++;
+                to += n_components * patterns[pattern].size();
+              }
           }
       }
   }
@@ -160,41 +179,53 @@ namespace mortise
   }
 
   SparseMatrix
-  RowAssembler::create(const MPI_Comm comm, const unsigned int n_components)
+  RowAssembler::create(const MPI_Comm comm, const unsigned int n_shared)
   {
+    // visit(row, columns, values) for those of a node
+    const auto for_each_row =
+      [this](const Index node, const int r, const auto &visit) {
+        std::vector<Index> of_row;
+        if (r >= 0)
+          for (const Index column : patterns[pattern_of[r]])
+            for (unsigned int d = 0; d < n_components; ++d)
+              of_row.push_back(n_components * column + d);
+        for (unsigned int c = 0; c < n_components; ++c)
+          visit(n_components * node + c,
+                of_row,
+                r < 0 ? nullptr : values.data() + begin[r] + c * of_row.size());
+      };
     if (Utilities::MPI::n_mpi_processes(comm) > 1)
       {
         std::vector<SparseMatrix::Entry> entries;
         entries.reserve(values.size());
-        const auto add = [&](const Index row, const int r) {
-          std::size_t k = r < 0 ? 0 : begin[r];
-          if (r >= 0)
-            for (const Index column : patterns[pattern_of[r]])
-              entries.push_back({row, column, values[k++]});
+        const auto add = [&](const Index               row,
+                             const std::vector<Index> &of_row,
+                             const double             *from) {
+          for (const Index column : of_row)
+            entries.push_back({row, column, *from++});
         };
-        for (const Index row : rows)
-          add(row, number_of_owned[rows.index_within_set(row)]);
-        for (const auto &[row, r] : number_of_other)
-          add(row, static_cast<int>(r));
-        return {
-          rows, columns, comm, entries, VectorOperation::add, n_components};
+        for (const Index node : nodes)
+          for_each_row(node,
+                       number_of_owned[nodes.index_within_set(node)],
+                       add);
+        for (const auto &[node, r] : number_of_other)
+          for_each_row(node, static_cast<int>(r), add);
+        return {rows, columns, comm, entries, VectorOperation::add, n_shared};
       }
     SparseMatrix::CompressedRows result;
-    for (const int r : number_of_owned)
-      {
-        if (r >= 0)
-          {
-            const auto &pattern = patterns[pattern_of[r]];
-            const auto  first   = values.begin() + begin[r];
-            result.columns.insert(result.columns.end(),
-                                  pattern.begin(),
-                                  pattern.end());
-            result.values.insert(result.values.end(),
-                                 first,
-                                 first + pattern.size());
-          }
-        result.begin.push_back(result.columns.size());
-      }
-    return {rows, columns, comm, std::move(result), n_components};
+    result.columns.reserve(values.size());
+    result.values.reserve(values.size());
+    for (const Index node : nodes)
+      for_each_row(
+        node,
+        number_of_owned[nodes.index_within_set(node)],
+        [&](const Index, const std::vector<Index> &of_row, const double *from) {
+          result.columns.insert(result.columns.end(),
+                                of_row.begin(),
+                                of_row.end());
+          result.values.insert(result.values.end(), from, from + of_row.size());
+          result.begin.push_back(result.columns.size());
+        });
+    return {rows, columns, comm, std::move(result), n_shared};
   }
 } // namespace mortise

@@ -31,7 +31,7 @@ namespace mortise
             }
         }
     const IndexSet rows  = owned_range(n_rows, comm),
-                   nodes = nodes_of(owned_displacement);
+                   nodes = nodes_of(owned_displacement, dim);
     const auto   first   = n_rows > 0 ? rows.nth_index_in_set(0) : 0;
     RowAssembler assembler(rows, nodes);
     /// Calls visit(row expansion, column expansion, block) for all blocks.

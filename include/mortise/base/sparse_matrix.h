@@ -21,6 +21,10 @@ namespace mortise
   dealii::IndexSet
   by_component(const dealii::IndexSet &set, unsigned int n);
 
+  /// Indices i of a contiguous @p set of all n i + c, c < n.
+  dealii::IndexSet
+  nodes_of(const dealii::IndexSet &set, unsigned int n);
+
   /// Rows and columns are owned in contiguous ranges that ascend with the rank.
   /// A rank has its rows, and numbers the columns in which they have entries in
   /// ascending order: its columns, which other ranks may own. An entry couples

@@ -96,8 +96,11 @@ namespace mortise
   class RowAssembler
   {
   public:
-    /// Owned ranges, contiguous and rank by rank.
-    RowAssembler(const dealii::IndexSet &rows, const dealii::IndexSet &columns);
+    /// Owned ranges of the matrix, contiguous and rank by rank. Expansions are
+    /// in nodes of @p n_components rows and columns each.
+    RowAssembler(const dealii::IndexSet &rows,
+                 const dealii::IndexSet &columns,
+                 unsigned int            n_components = 1);
 
     void
     record(const Expansion &row,
@@ -109,7 +112,8 @@ namespace mortise
     void
     allocate();
 
-    /// Adds factor times @p block or its transpose.
+    /// Adds factor times @p block or its transpose; its rows and columns are
+    /// those of the first component, then those of the second.
     void
     add(const Expansion                  &row,
         const Expansion                  &column,
@@ -117,9 +121,9 @@ namespace mortise
         double                            factor,
         bool                              transposed);
 
-    /// The sum; @p n_components as in SparseMatrix. Collective.
+    /// The sum; @p n_shared: SparseMatrix's n_components. Collective.
     SparseMatrix
-    create(MPI_Comm comm, unsigned int n_components = 1);
+    create(MPI_Comm comm, unsigned int n_shared = 1);
 
   private:
     using Index = dealii::types::global_dof_index;
@@ -135,14 +139,16 @@ namespace mortise
                    unsigned int              guess);
 
     const dealii::IndexSet &rows, &columns;
-    std::vector<int>        number_of_owned; ///< by owned row; -1: not recorded
+    unsigned int            n_components;
+    dealii::IndexSet        nodes;    ///< owned, of rows
+    std::vector<int> number_of_owned; ///< by owned node; -1: not recorded
     std::map<Index, unsigned int>   number_of_other;
     std::vector<std::vector<Index>> sets; ///< columns of one record()
-    /// By recorded row: its sets, until allocate().
+    /// By recorded node of rows: its sets, until allocate().
     std::vector<std::vector<unsigned int>> sets_of;
     std::vector<std::vector<Index>>        patterns;   ///< columns, ascending
-    std::vector<unsigned int>              pattern_of; ///< by recorded row
-    std::vector<std::size_t> begin; ///< of values, by recorded row
+    std::vector<unsigned int>              pattern_of; ///< by recorded node
+    std::vector<std::size_t> begin; ///< of values, by recorded node
     std::vector<double>      values;
     std::vector<std::vector<unsigned int>> guesses; ///< see find_positions()
   };

@@ -187,23 +187,31 @@ namespace mortise
   Pairing::choose_multipliers()
   {
     number_multipliers();
-    std::vector<bool> tried(couplings.size(), false);
-    auto              ties = tie_supports();
-    auto              weak = weak_ties(spaces.bodies, spaces.dirichlet, ties);
-    for (unsigned int k = 0; k < weak.size();)
+    std::vector<bool> tried(couplings.size(), false), can_exchange;
+    for (unsigned int i = 0; i < couplings.size(); ++i)
       {
-        const unsigned int   i     = weak[k++];
-        InterfaceParameters &given = interfaces[i];
-        const auto          &master =
+        const InterfaceParameters &given = interfaces[i];
+        can_exchange.push_back(!given.is_support && !is_patch(i) &&
+                               !given.follows_bodies);
+        if (!can_exchange.back())
+          continue;
+        const auto &master =
           run.parameters.bodies[given.master.body].boundaries;
         const auto is_prescribed = [&](const std::string &boundary) {
           const auto side = master.find(boundary);
           return side != master.end() && side->second.displacement;
         };
-        if (tried[i] || is_patch(i) || given.follows_bodies ||
-            std::any_of(given.master.boundaries.begin(),
-                        given.master.boundaries.end(),
-                        is_prescribed))
+        can_exchange.back() = std::none_of(given.master.boundaries.begin(),
+                                           given.master.boundaries.end(),
+                                           is_prescribed);
+      }
+    auto ties = tie_supports();
+    auto weak = weak_ties(spaces.bodies, spaces.dirichlet, ties, can_exchange);
+    for (unsigned int k = 0; k < weak.size();)
+      {
+        const unsigned int   i     = weak[k++];
+        InterfaceParameters &given = interfaces[i];
+        if (tried[i])
           continue;
         tried[i] = true;
         std::swap(given.slave, given.master);
@@ -215,7 +223,7 @@ namespace mortise
         number_multipliers();
         const auto other_ties = tie_supports();
         const auto still =
-          weak_ties(spaces.bodies, spaces.dirichlet, other_ties);
+          weak_ties(spaces.bodies, spaces.dirichlet, other_ties, can_exchange);
         if (still.size() < weak.size())
           {
             run.log.line("  interface " + given.name +

@@ -115,12 +115,13 @@ namespace mortise
   std::vector<unsigned int>
   weak_ties(const Bodies                                       &bodies,
             const std::vector<std::vector<DirichletCondition>> &dirichlet,
-            const std::vector<TieSupport>                      &ties)
+            const std::vector<TieSupport>                      &ties,
+            const std::vector<bool>                            &asked)
   {
     const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
     std::vector<unsigned int> weak;
     for (unsigned int t = 0; t < ties.size(); ++t)
-      if (ties[t].slave != ties[t].master &&
+      if (asked[t] && ties[t].slave != ties[t].master &&
           ties[t].master != TieSupport::ground &&
           is_weak(ties[t], bodies, dirichlet, comm))
         weak.push_back(t);

@@ -64,6 +64,14 @@ namespace mortise
 
   namespace
   {
+    int
+    first_of(const IndexSet &nodes)
+    {
+      return nodes.n_elements() == 0 ?
+               0 :
+               static_cast<int>(nodes.nth_index_in_set(0));
+    }
+
     /// @p owned, a number for each of @p nodes, by column of @p matrix. Collective.
     std::vector<int>
     by_column(const RowsByNode       &matrix,
@@ -71,26 +79,27 @@ namespace mortise
               const IndexSet         &nodes,
               const MPI_Comm          comm)
     {
-      std::vector<int> unique(matrix.columns);
-      std::sort(unique.begin(), unique.end());
-      unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
-      IndexSet columns(nodes.size());
-      columns.add_indices(unique.begin(), unique.end());
-      LinearAlgebra::distributed::Vector<double> all(nodes, columns, comm);
+      const int  first = first_of(nodes), n = owned.size();
+      const auto is_owned = [&](const int column) {
+        return column >= first && column < first + n;
+      };
+      std::vector<int> others;
+      std::copy_if(matrix.columns.begin(),
+                   matrix.columns.end(),
+                   std::back_inserter(others),
+                   [&](const int column) { return !is_owned(column); });
+      std::sort(others.begin(), others.end());
+      others.erase(std::unique(others.begin(), others.end()), others.end());
+      IndexSet of_others(nodes.size());
+      of_others.add_indices(others.begin(), others.end());
+      LinearAlgebra::distributed::Vector<double> all(nodes, of_others, comm);
       std::copy(owned.begin(), owned.end(), all.begin());
       all.update_ghost_values();
       std::vector<int> result;
       for (const int column : matrix.columns)
-        result.push_back(static_cast<int>(all(column)));
+        result.push_back(is_owned(column) ? owned[column - first] :
+                                            static_cast<int>(all(column)));
       return result;
-    }
-
-    int
-    first_of(const IndexSet &nodes)
-    {
-      return nodes.n_elements() == 0 ?
-               0 :
-               static_cast<int>(nodes.nth_index_in_set(0));
     }
 
     /// Does owned node i, whose row begins with @p columns and @p values, couple
