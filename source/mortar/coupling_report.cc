@@ -273,24 +273,38 @@ namespace mortise
                  const std::vector<std::vector<double>> &coefficients,
                  Vector                                 &multiplier)
   {
+    if (multiplier.size() == 0)
+      return;
+    // the owner of a multiplier may have no face that gives it
+    const auto own = multiplier.locally_owned_elements();
+    auto sums = make_sums(2, coupling, own, multiplier.get_mpi_communicator());
+    Vector    &value = sums[0], &number = sums[1];
+    const auto add = [&](const auto index, const double given) {
+      value(index) += given;
+      number(index) += 1.;
+    };
     for (unsigned int s = 0; s < coefficients.size(); ++s)
       {
         const auto        &rows   = coupling.multipliers->rows()[s];
         const unsigned int n      = rows.n_nodes();
         const auto         values = along_directions(rows, coefficients[s]);
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
-          if (rows.begin[r + 1] == rows.begin[r] + 1 &&
-              multiplier.in_local_range(rows.index[rows.begin[r]]))
-            multiplier(rows.index[rows.begin[r]]) =
-              values[r] / rows.weight[rows.begin[r]];
+          if (rows.begin[r + 1] == rows.begin[r] + 1)
+            add(rows.index[rows.begin[r]],
+                values[r] / rows.weight[rows.begin[r]]);
         for (const auto &coefficient : rows.coefficients)
-          if (multiplier.in_local_range(coefficient.index))
-            multiplier(coefficient.index) =
+          add(coefficient.index,
               std::inner_product(coefficient.of_values.begin(),
                                  coefficient.of_values.end(),
                                  values.begin() + coefficient.direction * n,
-                                 0.);
+                                 0.));
       }
+    for (Vector &sum : sums)
+      sum.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < multiplier.locally_owned_size(); ++i)
+      if (number.local_element(i) > 0.)
+        multiplier.local_element(i) =
+          value.local_element(i) / number.local_element(i);
   }
 
   void
@@ -331,6 +345,26 @@ namespace mortise
                 sum(rows.index[e]) += rows.weight[e] * along;
             }
         }
+    sum.compress(VectorOperation::add);
+    rhs += sum;
+  }
+
+  void
+  add_distances(const Coupling &coupling, Vector &rhs)
+  {
+    Vector sum = make_sums(1,
+                           coupling,
+                           rhs.locally_owned_elements(),
+                           rhs.get_mpi_communicator())[0];
+    for_each_part(coupling,
+                  [&](const unsigned int    s,
+                      const unsigned int    node,
+                      const Tensor<1, dim> &direction,
+                      const auto            index,
+                      const double          weight) {
+                    sum(index) +=
+                      weight * opening(coupling, s, node, direction);
+                  });
     sum.compress(VectorOperation::add);
     rhs += sum;
   }

@@ -141,9 +141,10 @@ namespace mortise
   BulkSystem::is_nonlinear() const
   {
     const auto &bodies = all_levels.front().space->bodies();
-    return std::any_of(bodies.begin(), bodies.end(), [](const Body *body) {
-      return body->material.nonlinear() != nullptr;
-    });
+    return nonlinear ||
+           std::any_of(bodies.begin(), bodies.end(), [](const Body *body) {
+             return body->material.nonlinear() != nullptr;
+           });
   }
 
   BulkSystem::Response

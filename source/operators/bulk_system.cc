@@ -62,6 +62,7 @@ namespace mortise
                          const Scene                      &scene,
                          const MPI_Comm                    comm)
     : preconditioned(scene.preconditioned)
+    , nonlinear(scene.nonlinear)
   {
     std::unique_ptr<PressureNodes> nodes;
     if (pressure_space)

@@ -288,7 +288,7 @@ namespace mortise
     linearised_at.reset();
     if (!norm)
       norm = std::make_unique<ScaledResidual>(system);
-    if (along == nullptr && contact == nullptr)
+    if (along == nullptr && contact == nullptr && !follows())
       extrapolate(x);
     why      = "Newton's method stagnates";
     is_wrong = false;

@@ -241,7 +241,8 @@ namespace mortise
                             discretisation.linear_system().owned_displacement,
                             discretisation.displacement_of_pairing(),
                             run.comm);
-    begin_contact(last.contact);
+    if (contact != nullptr)
+      begin_contact(last.contact);
     if (last.displacement.size() > 0 && last.contact)
       go_on(*last.contact, last, origin, x);
     Acceleration acceleration(discretisation.linear_system().bulk->diagonal());
@@ -265,8 +266,9 @@ namespace mortise
           }
         auto known =
           by_face(discretisation.interfaces(), x.multiplier, run.comm);
-        const ContactRecords reached =
-          contact->records_of_iterate(*load, free_part(x));
+        std::optional<ContactRecords> reached;
+        if (contact != nullptr)
+          reached = contact->records_of_iterate(*load, free_part(x));
         acceleration.add(given, x, known);
         if (contraction > slow_contraction)
           {
@@ -286,7 +288,10 @@ namespace mortise
           }
         x.multiplier = zero();
         take(known, discretisation.interfaces(), x.multiplier);
-        go_on(reached, last, origin, x);
+        if (reached)
+          go_on(*reached, last, origin, x);
+        else
+          solver.update_interfaces();
         const double before_that = all.residual;
         all.residual             = residual(x);
         if (all.iterations > 0)

@@ -48,7 +48,7 @@ namespace mortise
       return;
     shows_flow = !elastic && may_yield;
     // a new ContactStep makes preconditioners itself
-    if (!follows())
+    if (!follows() || contact == nullptr)
       {
         solver.update();
         if (!solver.is_ready())
@@ -118,10 +118,13 @@ namespace mortise
     const bool  shows  = solver.is_ready();
     if (!shows)
       show_without_stress();
-    if (!report.converged && (!shows || discretisation.try_as_indefinite()))
+    // sets may cycle where solutions are loose
+    const double least = run.parameters.solver.tolerance;
+    if (!report.converged &&
+        (!shows || discretisation.try_as_indefinite() || accuracy > least))
       {
         solution = start;
-        report   = contact->solve(*data, linear, solution, accuracy);
+        report   = contact->solve(*data, linear, solution, least);
       }
     x = solution;
     x.displacement += load->prescribed_at_nodes;

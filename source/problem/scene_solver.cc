@@ -69,8 +69,9 @@ namespace mortise
       {
         discretisation.pair(values.solutions);
         discretisation.set_gaps(data, load);
-        contact = std::make_unique<ContactStep>(
-          run, discretisation, *linear_solver, preloads, state.contact);
+        if (contact)
+          contact = std::make_unique<ContactStep>(
+            run, discretisation, *linear_solver, preloads, state.contact);
       }
     state.solution = discretisation.system_vector(values, load);
     preloads.begin(data, state.shortenings, load);

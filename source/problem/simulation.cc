@@ -33,7 +33,8 @@ namespace mortise
              (std::any_of(parameters.interfaces.begin(),
                           parameters.interfaces.end(),
                           [](const InterfaceParameters &interface) {
-                            return is_one_sided(interface.law);
+                            return is_one_sided(interface.law) ||
+                                   interface.follows_bodies;
                           }) ||
               std::any_of(parameters.bodies.begin(),
                           parameters.bodies.end(),

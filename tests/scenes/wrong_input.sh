@@ -98,8 +98,8 @@ expect 2 'Control.*arc length with Adaptivity/Target error' "$prm/balloon.prm" "
 expect 2 'in mixed form with Poisson ratio 0.49' "$scene" --set "${material}Law=neo-Hookean" --set "${material}Poisson ratio=0.49" \
   --set 'Body lower/Degree=2' --set 'Exact solution/Displacement=x*y; 0; 0'
 expect 2 'only Law = tie' "$scene" --set 'Interface glue/Preload=1' --set 'Interface glue/Law=slide'
-expect 2 'Sliding.*finite with Law = slide' "$scene" --set 'Interface glue/Sliding=finite' --set 'Interface glue/Law=slide'
-expect 2 'Sliding.*finite with bodies of linear laws alone' "$scene" --set 'Interface glue/Sliding=finite' --set 'Interface glue/Law=contact'
+expect 2 'Sliding.*finite with Law = spring' "$scene" --set 'Interface glue/Sliding=finite' --set 'Interface glue/Law=spring' \
+  --set 'Interface glue/Normal stiffness=1' --set 'Interface glue/Tangential stiffness=1'
 expect 2 'Sliding.*finite with Mesh gap = ignored' "$scene" --set 'Interface glue/Sliding=finite' --set 'Interface glue/Law=contact' --set 'Interface glue/Mesh gap=ignored' \
   --set 'Body lower/Material/Law=neo-Hookean'
 expect 2 'a time without a Preload' "$scene" --set 'Interface glue/Preload until=1'

@@ -170,7 +170,13 @@ namespace mortise
     const std::function<double(const dealii::Point<dim> &position)> &offset,
     Vector                                                          &rhs);
 
+  /// Likewise int psi alpha with the distance alpha of the bodies where they
+  /// are paired, for interfaces that follow the bodies without contact nodes.
+  void
+  add_distances(const Coupling &coupling, Vector &rhs);
+
   /// The inverse of multiplier_coefficients(), for owned multipliers.
+  /// Collective.
   void
   set_multiplier(const Coupling                         &coupling,
                  const std::vector<std::vector<double>> &coefficients,

@@ -34,6 +34,8 @@ namespace mortise
       const FieldNumbering                    &numbering;
       const dealii::AffineConstraints<double> &constraints; ///< of the scene
       bool preconditioned = true; ///< by multigrid with penalties of interfaces
+      /// Is something nonlinear besides the laws of bodies?
+      bool nonlinear = false;
     };
 
     /// @p pressures may be null. Collective; throws InputError for tangled cells.
@@ -162,8 +164,8 @@ namespace mortise
     Vector
     values_at_nodes(const Coefficients &coefficient) const;
 
-    /// Has any body a law that is not linear? K and the products in mixed form
-    /// are those of its tangent at the last linearise().
+    /// Has any body a law that is not linear, or is the scene? K and the
+    /// products in mixed form are those of its tangent at the last linearise().
     bool
     is_nonlinear() const;
 
@@ -356,7 +358,7 @@ namespace mortise
                const Vector &u,
                const Vector &p) const;
 
-    const bool                             preconditioned;
+    const bool                             preconditioned, nonlinear;
     std::vector<MultigridLevel>            all_levels;
     std::unique_ptr<LevelOperator<double>> stiffness;
     Vector                                 stiffness_diagonal;

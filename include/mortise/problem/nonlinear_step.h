@@ -136,7 +136,7 @@ namespace mortise
     bool
     follows() const
     {
-      return contact != nullptr && discretisation.interfaces().follow();
+      return discretisation.interfaces().follow();
     }
     /// Iterations of which each has the pairs of the bodies at its start.
     NewtonReport

@@ -59,7 +59,8 @@ namespace mortise
     if (interface.law == Law::slide ||
         (is_one_sided(interface.law) && !has_friction(interface)))
       law.constrained = ConstrainedDirections::normal;
-    law.has_mesh_gap = law.is_one_sided() && !interface.ignores_mesh_gap;
+    law.has_mesh_gap = (law.is_one_sided() || interface.follows_bodies) &&
+                       !interface.ignores_mesh_gap;
     if (interface.law != Law::spring)
       return law;
     const auto where = [&](const std::string &name) {

@@ -1,4 +1,5 @@
-// What scenes with laws of material that are not linear do not have yet.
+// What scenes with laws of material that are not linear, and contact that
+// follows the bodies, do not have yet.
 #include <mortise/base/quotes.h>
 #include <mortise/base/run_log.h>
 #include <mortise/problem/input/formulation.h>
@@ -37,30 +38,19 @@ namespace mortise
 
   namespace
   {
-    /// Does a body have a law of finite strain or of plasticity?
-    bool
-    has_nonlinear_law(const Parameters &parameters)
-    {
-      return std::any_of(parameters.bodies.begin(),
-                         parameters.bodies.end(),
-                         [](const BodyParameters &any) {
-                           return !is_linear(any.material);
-                         });
-    }
-
     /// What keeps @p interface from following the bodies; empty: nothing.
     std::string
     obstacle_to_following(const Parameters          &parameters,
                           const InterfaceParameters &interface)
     {
-      if (!is_one_sided(interface.law))
+      if (!is_one_sided(interface.law) && interface.law != Law::slide)
         return "Law = " + name_of(interface.law);
-      if (!has_nonlinear_law(parameters))
-        return "bodies of linear laws alone";
       if (interface.ignores_mesh_gap)
         return "Mesh gap = ignored";
       if (parameters.adaptivity.target_error)
         return "Adaptivity/Target error";
+      if (parameters.steps.by_arc_length)
+        return "Steps/Control = arc length";
       for (const InterfaceParameters &other : parameters.interfaces)
         if (other.preload)
           return "the Preload of interface " + other.name;

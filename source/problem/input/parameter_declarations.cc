@@ -142,9 +142,10 @@ namespace mortise
       section.add(
         "Sliding",
         interface.sliding,
-        "Which pairs of faces and normals the contact of bodies with nonlinear laws has. small: those of "
+        "Which pairs of faces and normals Law = contact, tresca and slide have. small: those of "
         "the undeformed bodies; finite: those of the deformed bodies, found again in each iteration of Newton's "
-        "method, so that bodies may slide and turn far. Search distance then holds for the motion of a step. "
+        "method, so that bodies may slide and turn far. Search distance then holds for the motion of a step, and "
+        "slide closes the gaps of the meshes. "
         "auto: finite where a body has a law of finite strain.",
         Allowed::one_of({"auto", "small", "finite"}));
       section.add(

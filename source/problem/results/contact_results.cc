@@ -265,7 +265,8 @@ namespace mortise
           "interface " + interface.name() + ": the bodies slip by up to " +
           RunLog::number(slip) + ", more than a face of the slave, about " +
           RunLog::number(face) +
-          "; normals and pairs of faces stay those of the start, which holds for less slip on a curved surface");
+          "; normals and pairs of faces stay those of the start, which holds for less slip on a curved surface. "
+          "Allowed: Sliding = finite");
     }
 
     /// Throws InputError where a face without a partner could have met one.

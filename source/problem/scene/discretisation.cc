@@ -43,13 +43,19 @@ namespace mortise
   {
     auto              stage        = run.log.stage(run.timers, "bulk");
     const SceneField &displacement = spaces.fields.displacement;
+    const auto       &interfaces   = run.parameters.interfaces;
+    const bool        follow =
+      std::any_of(interfaces.begin(), interfaces.end(), [](const auto &given) {
+        return given.follows_bodies;
+      });
     system.bulk =
       std::make_unique<BulkSystem>(spaces.nodal,
                                    spaces.nodal_pressures,
                                    BulkSystem::Scene{displacement.numbering,
                                                      displacement.constraints,
                                                      spaces.choice.method !=
-                                                       SolverMethod::direct},
+                                                       SolverMethod::direct,
+                                                     follow},
                                    run.comm);
     const auto n_levels = system.bulk->levels().size();
     stage.details(std::to_string(n_levels) +

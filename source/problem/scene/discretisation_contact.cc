@@ -95,7 +95,14 @@ namespace mortise
         system.constraint.vmult_free(closed, paired_at);
       }
     for (const Coupling &coupling : pairing->all())
-      if (coupling.law.has_mesh_gap)
+      if (coupling.is_directed() && !coupling.law.is_one_sided())
+        {
+          add_distances(coupling, rhs);
+          const MultiplierRange &own = coupling.multipliers->range();
+          for (unsigned int m = own.first; m < own.end(); ++m)
+            rhs.begin()[m] += closed.begin()[m];
+        }
+      else if (coupling.law.has_mesh_gap)
         for (const ContactNode &node : coupling.contact_nodes)
           for (unsigned int r = 0; r < node.n_multipliers; ++r)
             {

@@ -211,7 +211,7 @@ namespace mortise
     const bool is_rounding = report.distance_max < 1e-6 * size;
     if (is_rounding)
       return;
-    if (!couplings[i].law.is_one_sided())
+    if (!couplings[i].law.is_one_sided() && !couplings[i].law.has_mesh_gap)
       {
         if (report.distance_mean > facets + 1e-3 * size)
           run.log.warning(
