@@ -94,7 +94,7 @@ namespace mortise
     closing = assembler.create(comm, dim);
   }
 
-  std::vector<Tensor<1, dim>>
+  std::vector<SlipOrigin::Opening>
   SlipOrigin::openings(const std::vector<Coupling> &couplings,
                        const Vector                &displacement_now,
                        const IndexSet              &owned_multiplier) const
@@ -103,7 +103,7 @@ namespace mortise
     moved -= displacement;
     std::vector<double> closed(dim * closing.n_rows());
     closing.vmult(closed.data(), moved.begin());
-    std::vector<Tensor<1, dim>> result;
+    std::vector<Opening> result;
     for (const Coupling &coupling : couplings)
       {
         const unsigned int begin = result.size();
@@ -111,7 +111,7 @@ namespace mortise
         if (!coupling.has_following_friction())
           continue;
         const std::vector<Face> &of_slave = faces.at(coupling.number);
-        Vector sum = make_sums(1, coupling, owned_multiplier, comm)[0];
+        auto sums = make_sums(2, coupling, owned_multiplier, comm);
         for_each_part(coupling,
                       [&](const unsigned int    s,
                           const unsigned int    i,
@@ -130,11 +130,19 @@ namespace mortise
                                 local.constraint(i, j) *
                                 (then.opening[j][c] -
                                  closed[dim * (then.first + j) + c]);
-                        sum(index) += weight * (opening * direction);
+                        sums[0](index) += weight * (opening * direction);
+                        sums[1](index) += then.has_partner ? 1. : 0.;
                       });
-        sum.compress(VectorOperation::add);
+        for (Vector &sum : sums)
+          sum.compress(VectorOperation::add);
         for (unsigned int i = 0; i < coupling.contact_nodes.size(); ++i)
-          result[begin + i] = coupling.contact_nodes[i].mean(sum.begin());
+          {
+            const ContactNode &node  = coupling.contact_nodes[i];
+            result[begin + i].mean   = node.mean(sums[0].begin());
+            for (unsigned int r = 0; r < node.n_multipliers; ++r)
+              if (sums[1].begin()[node.multipliers[r]] > 0.)
+                result[begin + i].has_partner = true;
+          }
       }
     return result;
   }

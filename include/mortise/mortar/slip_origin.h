@@ -25,12 +25,18 @@ namespace mortise
                const Vector                &displacement,
                MPI_Comm                     comm);
 
-    /// By node of contact of @p couplings, the present ones, with an entry for
-    /// each multiplier: the mean of x_master - x_slave, with the master's
-    /// points
-    /// that were partners, where the bodies are at @p displacement. On faces
-    /// that had no partner it is that of the present ones. Collective.
-    std::vector<dealii::Tensor<1, dim>>
+    struct Opening
+    {
+      /// With an entry for each multiplier: the mean of x_master - x_slave,
+      /// with the master's points that were partners, where the bodies are
+      /// now. On faces that had no partner it is that of the present ones.
+      dealii::Tensor<1, dim> mean;
+      bool                   has_partner = false; ///< had any face one?
+    };
+
+    /// By node of contact of @p couplings, the present ones, at this
+    /// @p displacement. Collective.
+    std::vector<Opening>
     openings(const std::vector<Coupling> &couplings,
              const Vector                &displacement,
              const dealii::IndexSet      &owned_multiplier) const;

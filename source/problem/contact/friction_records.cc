@@ -20,18 +20,20 @@ namespace mortise
   }
 
   void
-  FrictionSet::set_origin(const Vector                      &weighted_gaps,
-                          const std::vector<Tensor<1, dim>> &openings)
+  FrictionSet::set_origin(const Vector                           &weighted_gaps,
+                          const std::vector<SlipOrigin::Opening> &openings)
   {
     for (unsigned int i = 0; i < nodes.size(); ++i)
       if (Node &node = nodes[i]; node.has_friction)
         {
           const ContactNode   &of     = *node.contact;
           const Tensor<1, dim> normal = of.kinematic_normal(),
-                               moved  = of.opening - openings[i];
+                               moved  = of.opening - openings[i].mean;
           node.origin                 = Tensor<1, dim>();
           node.origin =
             slip(node, weighted_gaps) - (moved - (normal * moved) * normal);
+          // a contact that moves over the slave has others in each step
+          node.touched = node.touched || openings[i].has_partner;
         }
   }
 

@@ -4,6 +4,7 @@
 
 #include <mortise/contact/contact_records.h>
 #include <mortise/contact/friction.h>
+#include <mortise/mortar/slip_origin.h>
 #include <mortise/problem/contact/preloads.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/scene/scene_data.h>
@@ -127,10 +128,10 @@ namespace mortise
 
     /// Slip counts from where sides were apart by @p openings, by node and
     /// multiplier, the present ones of earlier pairs. @p weighted_gaps: the present
-    /// ones.
+    /// ones. A node that had a partner has friction, even if it was open.
     void
-    set_origin(const Vector                              &weighted_gaps,
-               const std::vector<dealii::Tensor<1, dim>> &openings);
+    set_origin(const Vector                           &weighted_gaps,
+               const std::vector<SlipOrigin::Opening> &openings);
 
     /// The step has converged.
     void
