@@ -223,9 +223,10 @@ namespace mortise
                                              degree_master,
                                              distortion,
                                              both_triangles());
+    // one more than these: what a rule leaves jumps as well
     return gauss_rule(
       all_products ?
-        std::max(n, 2 * std::max(degree_slave, degree_master) + 1) :
+        std::max(n + 1, 2 * std::max(degree_slave, degree_master) + 2) :
         n);
   }
 

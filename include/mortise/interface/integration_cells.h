@@ -128,9 +128,9 @@ namespace mortise
     void
     set_points_per_direction(const unsigned int n);
 
-    /// Take at least as many points as all products of functions of
-    /// quadrilaterals need on cells of any shape, so that integrals do not jump
-    /// where other points are taken as the faces move.
+    /// Take more points than all products of functions of quadrilaterals need
+    /// on cells of any shape, so that integrals do not jump where other points
+    /// are taken as the faces move.
     void
     set_all_products(bool all);
 
