@@ -113,7 +113,7 @@ namespace mortise
       }
     SystemVector       solution = free_part(x); // from the iterate
     const SystemVector start    = solution;
-    const double       accuracy = accuracy_of_contact();
+    const double       accuracy = accuracy_of_contact(norm->norm(linear.rhs));
     SolveReport report = contact->solve(*data, linear, solution, accuracy);
     const bool  shows  = solver.is_ready();
     if (!shows)
@@ -140,7 +140,7 @@ namespace mortise
   }
 
   double
-  NonlinearStep::accuracy_of_contact() const
+  NonlinearStep::accuracy_of_contact(const double rhs) const
   {
     const double least = run.parameters.solver.tolerance;
     if (!follows())
@@ -152,7 +152,9 @@ namespace mortise
                                     loosest_solve,
                                   0.9 * contraction * contraction) :
                          first_contact;
-    return std::max(least, eta * std::min(1., size));
+    // of slender bodies stiffness times displacement is far more than forces
+    return std::max(least,
+                    eta * std::min(1., size) * std::min(1., reference / rhs));
   }
 
   SolveReport

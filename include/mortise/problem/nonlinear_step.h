@@ -185,9 +185,9 @@ namespace mortise
     /// What is left of prescribed displacements.
     Vector
     rest_of_prescribed(const SystemVector &x) const;
-    /// Of the next problem of contact.
+    /// Of the next problem of contact, whose right hand side has the norm @p rhs.
     double
-    accuracy_of_contact() const;
+    accuracy_of_contact(double rhs) const;
     /// Without what rounding leaves of the rest.
     void
     set_prescribed(SystemVector &x) const;

@@ -15,7 +15,9 @@ namespace mortise
 
   namespace
   {
-    constexpr unsigned int max_sets = 1000, max_sets_of_friction = 60;
+    /// Where sides are far apart energies need not decide sets that recur.
+    constexpr unsigned int max_sets = 1000, max_sets_of_friction = 60,
+                           max_following_sets = 100;
 
     /// Of solves on the way to the set: doc/measurements/contact.md.
     constexpr double loose = 1e-2;
@@ -262,7 +264,10 @@ namespace mortise
     reduction = tolerance == asked || !turns ? 0. : first_reduction;
     NewtonOptions options;
     options.tolerance      = 0.;
-    options.max_iterations = friction.empty() ? max_sets : max_sets_of_friction;
+    options.max_iterations =
+      !friction.empty() ? max_sets_of_friction :
+      discretisation.interfaces().follow() ? max_following_sets :
+                                             max_sets;
     options.max_halvings   = 0;
     report                 = solve_newton(*this, options, x);
     if (report.converged)
