@@ -137,8 +137,8 @@ namespace mortise
           sum.compress(VectorOperation::add);
         for (unsigned int i = 0; i < coupling.contact_nodes.size(); ++i)
           {
-            const ContactNode &node  = coupling.contact_nodes[i];
-            result[begin + i].mean   = node.mean(sums[0].begin());
+            const ContactNode &node = coupling.contact_nodes[i];
+            result[begin + i].mean  = node.mean(sums[0].begin());
             for (unsigned int r = 0; r < node.n_multipliers; ++r)
               if (sums[1].begin()[node.multipliers[r]] > 0.)
                 result[begin + i].has_partner = true;

@@ -20,7 +20,7 @@ namespace mortise
   namespace
   {
     constexpr unsigned int most_pairings = 60, most_useless = 20,
-                           few_pairings = 10;
+                           few_pairings = 10, most_without_set = 2;
 
     /// Residuals below these that do not fall by half, the smaller in one
     /// iteration and the larger in so many, are what numbers of points of
@@ -247,12 +247,13 @@ namespace mortise
       go_on(*last.contact, last, origin, x);
     Acceleration acceleration(discretisation.linear_system().bulk->diagonal());
     double       best  = std::numeric_limits<double>::infinity();
-    unsigned int rises = 0;
+    unsigned int rises = 0, n_without_set = 0;
     NewtonReport all;
     while (all.iterations < most_pairings && rises < most_useless)
       {
         const Vector       given = x.displacement;
         const NewtonReport one   = improve(1, x);
+        const bool lacks_set     = contact != nullptr && contact->lacks_set();
         all.linear_iterations += one.linear_iterations;
         const SolveReport before = all.linear;
         all.linear               = one.linear;
@@ -261,7 +262,7 @@ namespace mortise
         if (one.iterations == 0)
           {
             all.residual  = one.residual;
-            all.converged = one.converged;
+            all.converged = one.converged && n_without_set == 0;
             break;
           }
         auto known =
@@ -299,10 +300,12 @@ namespace mortise
         print(++all.iterations, all.residual);
         rises         = all.residual < 0.5 * best ? 0 : rises + 1;
         best          = std::min(best, all.residual);
-        all.converged = all.residual <= tolerance() ||
-                        (best < rounding_of_pairs && rises > 0) ||
-                        (best < most_rounding && rises >= most_of_rounding);
-        if (all.converged)
+        n_without_set = lacks_set ? n_without_set + 1 : 0;
+        all.converged =
+          !lacks_set && (all.residual <= tolerance() ||
+                         (best < rounding_of_pairs && rises > 0) ||
+                         (best < most_rounding && rises >= most_of_rounding));
+        if (all.converged || n_without_set > most_without_set)
           break;
       }
     all.easy = all.converged && all.iterations <= few_pairings;

@@ -113,9 +113,12 @@ namespace mortise
       }
     SystemVector       solution = free_part(x); // from the iterate
     const SystemVector start    = solution;
-    const double       accuracy = accuracy_of_contact(norm->norm(linear.rhs));
-    SolveReport report = contact->solve(*data, linear, solution, accuracy);
-    const bool  shows  = solver.is_ready();
+    // of slender bodies stiffness times displacement is far more than forces
+    const double part     = std::min(1., reference / norm->norm(linear.rhs));
+    const double accuracy = accuracy_of_contact(part);
+    SolveReport  report =
+      contact->solve(*data, linear, solution, accuracy, part);
+    const bool shows = solver.is_ready();
     if (!shows)
       show_without_stress();
     // sets may cycle where solutions are loose
@@ -124,7 +127,7 @@ namespace mortise
         (!shows || discretisation.try_as_indefinite() || accuracy > least))
       {
         solution = start;
-        report   = contact->solve(*data, linear, solution, least);
+        report   = contact->solve(*data, linear, solution, least, part);
       }
     x = solution;
     x.displacement += load->prescribed_at_nodes;
@@ -140,7 +143,7 @@ namespace mortise
   }
 
   double
-  NonlinearStep::accuracy_of_contact(const double rhs) const
+  NonlinearStep::accuracy_of_contact(const double part) const
   {
     const double least = run.parameters.solver.tolerance;
     if (!follows())
@@ -152,9 +155,7 @@ namespace mortise
                                     loosest_solve,
                                   0.9 * contraction * contraction) :
                          first_contact;
-    // of slender bodies stiffness times displacement is far more than forces
-    return std::max(least,
-                    eta * std::min(1., size) * std::min(1., reference / rhs));
+    return std::max(least, eta * std::min(1., size) * part);
   }
 
   SolveReport

@@ -185,9 +185,10 @@ namespace mortise
     /// What is left of prescribed displacements.
     Vector
     rest_of_prescribed(const SystemVector &x) const;
-    /// Of the next problem of contact, whose right hand side has the norm @p rhs.
+    /// Of the next problem of contact; forces are this @p part of its right
+    /// hand side.
     double
-    accuracy_of_contact(double rhs) const;
+    accuracy_of_contact(double part) const;
     /// Without what rounding leaves of the rest.
     void
     set_prescribed(SystemVector &x) const;

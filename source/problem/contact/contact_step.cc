@@ -15,9 +15,11 @@ namespace mortise
 
   namespace
   {
-    /// Where sides are far apart energies need not decide sets that recur.
-    constexpr unsigned int max_sets = 1000, max_sets_of_friction = 60,
-                           max_following_sets = 100;
+    constexpr unsigned int max_sets = 1000, max_sets_of_friction = 60;
+
+    /// For one pairing: tangents need not be positive there, and then no set
+    /// need be that of a solution.
+    constexpr unsigned int max_following_sets = 30;
 
     /// Of solves on the way to the set: doc/measurements/contact.md.
     constexpr double loose = 1e-2;
@@ -136,6 +138,15 @@ namespace mortise
         set = std::move(next);
         return 0.;
       }
+    if (const double before_that = std::exchange(violation, of_friction.error);
+        discretisation.interfaces().follow() && sets >= max_following_sets &&
+        violation <= before_that)
+      {
+        if (!friction.empty())
+          friction.take(before);
+        no_set = true;
+        return 0.;
+      }
     if (!friction.empty())
       check_hold(next.active());
     const auto free = [&] {
@@ -238,7 +249,8 @@ namespace mortise
   ContactStep::solve(const SceneData &data,
                      SceneLoad       &of_step,
                      SystemVector    &x,
-                     const double     accuracy)
+                     const double     accuracy,
+                     const double     part)
   {
     asked = accuracy;
     load  = &of_step;
@@ -246,7 +258,7 @@ namespace mortise
     // a factorisation gives all digits at once
     tolerance = discretisation.choice().method == SolverMethod::direct ?
                   asked :
-                  std::max(loose, asked);
+                  std::max(loose * part, asked);
     used_strength.reset();
     // from lower degrees and from step to step the edge is near already
     cold          = !first && !last;
@@ -255,6 +267,7 @@ namespace mortise
     overshoots    = 0;
     slip_extends  = true;
     slip_extended = false;
+    no_set        = false;
     sets          = 0;
     set.start_from(predict(of_step, x));
     // where nothing is predicted to turn one system is all
@@ -264,10 +277,7 @@ namespace mortise
     reduction = tolerance == asked || !turns ? 0. : first_reduction;
     NewtonOptions options;
     options.tolerance      = 0.;
-    options.max_iterations =
-      !friction.empty() ? max_sets_of_friction :
-      discretisation.interfaces().follow() ? max_following_sets :
-                                             max_sets;
+    options.max_iterations = friction.empty() ? max_sets : max_sets_of_friction;
     options.max_halvings   = 0;
     report                 = solve_newton(*this, options, x);
     if (report.converged)

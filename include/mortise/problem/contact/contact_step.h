@@ -43,12 +43,23 @@ namespace mortise
     /// not converged after 1000 sets, 60 with friction. Throws InputError with
     /// body and motion if contact is lost, or friction does not hold a body
     /// that nothing else does. Collective.
-    /// @p accuracy: of the last linear solve.
+    /// @p accuracy: of the last linear solve. @p part: of the right hand side
+    /// that forces are.
     SolveReport
     solve(const SceneData &data,
           SceneLoad       &load,
           SystemVector    &x,
-          double           accuracy);
+          double           accuracy,
+          double           part = 1.);
+
+    /// Did the last solve() end without the set of its solution, since sets
+    /// recur or are too many? That is so only where contact follows the
+    /// bodies, and other pairs are next.
+    bool
+    lacks_set() const
+    {
+      return no_set;
+    }
 
     /// Go on with the preconditioner of @p other, of other pairs. Its system
     /// must have changed with the pairs alone, and little besides.
@@ -245,6 +256,8 @@ namespace mortise
     bool         extended   = false; ///< did one open?
     unsigned int overshoots = 0;     ///< sets that closed again
     /// Likewise of slip.
-    bool slip_extends = true, slip_extended = false;
+    bool   slip_extends = true, slip_extended = false;
+    bool   no_set    = false;
+    double violation = 0.; ///< of friction by the last set
   };
 } // namespace mortise
