@@ -275,13 +275,14 @@ namespace mortise
   {
     if (multiplier.size() == 0)
       return;
-    // the owner of a multiplier may have no face that gives it
-    const auto own = multiplier.locally_owned_elements();
-    auto sums = make_sums(2, coupling, own, multiplier.get_mpi_communicator());
-    Vector    &value = sums[0], &number = sums[1];
-    const auto add = [&](const auto index, const double given) {
-      value(index) += given;
-      number(index) += 1.;
+    auto       sums  = make_sums(2,
+                          coupling,
+                          multiplier.locally_owned_elements(),
+                          multiplier.get_mpi_communicator());
+    Vector    &value = sums[0], &is_given = sums[1];
+    const auto give = [&](const auto index, const double given) {
+      value(index)    = given;
+      is_given(index) = 1.;
     };
     for (unsigned int s = 0; s < coefficients.size(); ++s)
       {
@@ -290,21 +291,29 @@ namespace mortise
         const auto         values = along_directions(rows, coefficients[s]);
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
           if (rows.begin[r + 1] == rows.begin[r] + 1)
-            add(rows.index[rows.begin[r]],
-                values[r] / rows.weight[rows.begin[r]]);
+            give(rows.index[rows.begin[r]],
+                 values[r] / rows.weight[rows.begin[r]]);
         for (const auto &coefficient : rows.coefficients)
-          add(coefficient.index,
-              std::inner_product(coefficient.of_values.begin(),
-                                 coefficient.of_values.end(),
-                                 values.begin() + coefficient.direction * n,
-                                 0.));
+          give(coefficient.index,
+               std::inner_product(coefficient.of_values.begin(),
+                                  coefficient.of_values.end(),
+                                  values.begin() + coefficient.direction * n,
+                                  0.));
       }
+    // faces of other processes give what none of the owner does
+    std::vector<bool> is_known(multiplier.locally_owned_size());
+    for (unsigned int i = 0; i < is_known.size(); ++i)
+      if (is_given.local_element(i) > 0.)
+        {
+          is_known[i]                 = true;
+          multiplier.local_element(i) = value.local_element(i);
+          value.local_element(i) = is_given.local_element(i) = 0.;
+        }
     for (Vector &sum : sums)
       sum.compress(VectorOperation::add);
-    for (unsigned int i = 0; i < multiplier.locally_owned_size(); ++i)
-      if (number.local_element(i) > 0.)
-        multiplier.local_element(i) =
-          value.local_element(i) / number.local_element(i);
+    for (unsigned int i = 0; i < is_known.size(); ++i)
+      if (const double n = is_given.local_element(i); n > 0. && !is_known[i])
+        multiplier.local_element(i) = value.local_element(i) / n;
   }
 
   void

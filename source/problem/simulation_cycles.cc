@@ -50,7 +50,9 @@ namespace mortise
       !equations->discretisation.linear_system().bulk->is_nonlinear();
     SolvedState next;
     steps_of_cycle.reset();
-    if (is_linear || (!start.empty() &&
+    const Pairing &interfaces = equations->discretisation.interfaces();
+    const bool     slips = interfaces.follow() && interfaces.have_friction();
+    if (is_linear || (!start.empty() && !slips &&
                       std::none_of(bodies.begin(), bodies.end(), remembers)))
       next = solve_at(steps.next(), State(), start, data, load);
     if (is_linear || next.report.converged)

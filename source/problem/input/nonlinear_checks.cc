@@ -47,8 +47,6 @@ namespace mortise
         return "Law = " + name_of(interface.law);
       if (interface.ignores_mesh_gap)
         return "Mesh gap = ignored";
-      if (parameters.adaptivity.target_error)
-        return "Adaptivity/Target error";
       if (parameters.steps.by_arc_length)
         return "Steps/Control = arc length";
       for (const InterfaceParameters &other : parameters.interfaces)

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace mortise
@@ -36,6 +37,17 @@ namespace mortise
     auto stage = run.log.stage(run.timers, "coupling");
     choose_multipliers();
     stage.details(std::to_string(owned.size()) + " multipliers");
+  }
+
+  bool
+  Pairing::is_start() const
+  {
+    return displaced == nullptr ||
+           std::all_of(displaced->begin(),
+                       displaced->end(),
+                       [](const BodySolution &of_body) {
+                         return of_body.displacement.linfty_norm() == 0.;
+                       });
   }
 
   unsigned int
@@ -145,9 +157,10 @@ namespace mortise
     set_springs(coupling);
   }
 
-  void
+  std::vector<std::vector<BoundaryFace>>
   Pairing::find_pairs()
   {
+    std::vector<std::vector<BoundaryFace>> slaves;
     auto          stage = run.log.stage(run.timers, "interface_search");
     std::uint64_t faces = 0;
     std::string   divided;
@@ -174,6 +187,7 @@ namespace mortise
                                                 given.name,
                                               patches[k]));
             couplings.back().number = couplings.size() - 1;
+            slaves.push_back(patches[k]);
             faces += Utilities::MPI::sum(
               couplings.back().interface->slave().faces.size(), run.comm);
           }
@@ -183,6 +197,47 @@ namespace mortise
                      " smooth patches of the slave";
       }
     stage.details(std::to_string(faces) + " slave faces" + divided);
+    return slaves;
+  }
+
+  void
+  Pairing::find_overlap(const unsigned int               i,
+                        const std::vector<BoundaryFace> &slave)
+  {
+    const Coupling        &found = couplings[i];
+    const InterfaceReport &known = found.interface->report();
+    if (known.covered_area > 0.99 * known.slave_area)
+      return;
+    InterfaceParameters given = interfaces[i];
+    const auto         &faces = found.interface->slave().faces;
+    double              lower[dim], upper[dim]; // of all slave faces
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::numeric_limits<double>::max();
+        upper[d] = std::numeric_limits<double>::lowest();
+        for (const SurfaceFace &face : faces)
+          {
+            lower[d] = std::min(lower[d], face.frame.center[d] - face.size);
+            upper[d] = std::max(upper[d], face.frame.center[d] + face.size);
+          }
+        lower[d] = Utilities::MPI::min(lower[d], run.comm);
+        upper[d] = Utilities::MPI::max(upper[d], run.comm);
+        given.search_distance.least =
+          std::max(given.search_distance.least, upper[d] - lower[d]);
+      }
+    Coupling other = make_coupling(given, found.interface->name(), slave);
+    integrate(given, other);
+    const InterfaceReport &report = other.interface->report();
+    if (!(report.covered_area > 1.01 * known.covered_area &&
+          report.gap_mean < 0.))
+      return;
+    run.log.warning("interface " + found.interface->name() +
+                    ": the bodies overlap by " +
+                    RunLog::number(-report.gap_mean) +
+                    " in the mean, more than the Search distance, which is "
+                    "taken to be larger at the start");
+    other.number = found.number;
+    couplings[i] = std::move(other);
   }
 
   namespace
@@ -299,12 +354,15 @@ namespace mortise
   void
   Pairing::find_and_integrate()
   {
-    find_pairs();
+    const auto  slaves   = find_pairs();
     const auto  total    = run.timers.scope("coupling");
     double      clipping = 0.;
     std::string balance;
     for (unsigned int i = 0; i < couplings.size(); ++i)
       integrate(interfaces[i], couplings[i]);
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      if (interfaces[i].follows_bodies && is_start())
+        find_overlap(i, slaves[i]);
     drop_patches_apart();
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {

@@ -161,8 +161,18 @@ namespace mortise
     find_and_integrate();
     void
     choose_multipliers();
-    void
+    /// The slaves of couplings.
+    std::vector<std::vector<BoundaryFace>>
     find_pairs();
+    /// Are all displacements zero?
+    bool
+    is_start() const;
+    /// Take the pairs of an overlap of the bodies that is deeper than the
+    /// search
+    /// distance of interface @p i, if there is one; @p slave: its faces.
+    /// Collective.
+    void
+    find_overlap(unsigned int i, const std::vector<BoundaryFace> &slave);
     /// Warn if the mesh gap is not small.
     void
     warn_of_mesh_gap(unsigned int i) const;
