@@ -104,6 +104,7 @@ namespace mortise
         }
       return result;
     }
+
     void
     sort_unique(std::vector<Index> &indices)
     {

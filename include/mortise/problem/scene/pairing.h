@@ -168,9 +168,8 @@ namespace mortise
     bool
     is_start() const;
     /// Take the pairs of an overlap of the bodies that is deeper than the
-    /// search
-    /// distance of interface @p i, if there is one; @p slave: its faces.
-    /// Collective.
+    /// search distance of interface @p i, if there is one. @p slave: its
+    /// faces. Collective.
     void
     find_overlap(unsigned int i, const std::vector<BoundaryFace> &slave);
     /// Warn if the mesh gap is not small.
