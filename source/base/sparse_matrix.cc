@@ -1,6 +1,7 @@
 // See sparse_matrix.h.
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/sort_unique.h>
 #include <mortise/base/sparse_matrix.h>
 
 #include <algorithm>
@@ -103,13 +104,6 @@ namespace mortise
           result.begin.push_back(result.columns.size());
         }
       return result;
-    }
-
-    void
-    sort_unique(std::vector<Index> &indices)
-    {
-      std::sort(indices.begin(), indices.end());
-      indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
     }
 
     /// Sorts a few ascending runs, one after the other.

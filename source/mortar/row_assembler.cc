@@ -1,6 +1,7 @@
 // See row_assembler.h.
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/sort_unique.h>
 #include <mortise/mortar/row_assembler.h>
 
 #include <algorithm>
@@ -8,18 +9,6 @@
 namespace mortise
 {
   using namespace dealii;
-
-  namespace
-  {
-    using GlobalIndex = types::global_dof_index;
-
-    void
-    make_unique(std::vector<GlobalIndex> &indices)
-    {
-      std::sort(indices.begin(), indices.end());
-      indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-    }
-  } // namespace
 
   RowAssembler::RowAssembler(const IndexSet    &rows,
                              const IndexSet    &columns,
@@ -67,7 +56,7 @@ namespace mortise
          e < column.begin[column.offset + n_columns];
          ++e)
       sets.back().push_back(column.index[e]);
-    make_unique(sets.back());
+    sort_unique(sets.back());
     const unsigned int set = sets.size() - 1;
     for (unsigned int e = row.begin[row.offset];
          e < row.begin[row.offset + n_rows];
@@ -93,7 +82,7 @@ namespace mortise
               patterns.back().insert(patterns.back().end(),
                                      sets[set].begin(),
                                      sets[set].end());
-            make_unique(patterns.back());
+            sort_unique(patterns.back());
           }
         pattern_of.push_back(patterns.size() - 1);
         begin.push_back(n_values);

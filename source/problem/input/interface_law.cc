@@ -50,6 +50,13 @@ namespace mortise
            !is_zero(interface.static_friction_coefficient);
   }
 
+  bool
+  has_mesh_gap(const InterfaceParameters &interface)
+  {
+    return (is_one_sided(interface.law) || interface.follows_bodies) &&
+           !interface.ignores_mesh_gap;
+  }
+
   InterfaceLaw
   interface_law(const Parameters          &parameters,
                 const InterfaceParameters &interface)
@@ -59,8 +66,7 @@ namespace mortise
     if (interface.law == Law::slide ||
         (is_one_sided(interface.law) && !has_friction(interface)))
       law.constrained = ConstrainedDirections::normal;
-    law.has_mesh_gap = (law.is_one_sided() || interface.follows_bodies) &&
-                       !interface.ignores_mesh_gap;
+    law.has_mesh_gap = has_mesh_gap(interface);
     if (interface.law != Law::spring)
       return law;
     const auto where = [&](const std::string &name) {

@@ -95,23 +95,19 @@ namespace mortise
         system.constraint.vmult_free(closed, paired_at);
       }
     for (const Coupling &coupling : pairing->all())
-      if (coupling.is_directed() && !coupling.law.is_one_sided())
+      if (coupling.law.has_mesh_gap)
         {
-          add_distances(coupling, rhs);
-          const MultiplierRange &own = coupling.multipliers->range();
-          for (unsigned int m = own.first; m < own.end(); ++m)
-            rhs.begin()[m] += closed.begin()[m];
-        }
-      else if (coupling.law.has_mesh_gap)
-        for (const ContactNode &node : coupling.contact_nodes)
-          for (unsigned int r = 0; r < node.n_multipliers; ++r)
-            {
-              const unsigned int m = node.multipliers[r];
-              rhs.begin()[m] +=
+          if (!coupling.law.is_one_sided())
+            add_distances(coupling, rhs);
+          for (const ContactNode &node : coupling.contact_nodes)
+            for (unsigned int r = 0; r < node.n_multipliers; ++r)
+              rhs.begin()[node.multipliers[r]] +=
                 node.areas[r] * node.gap() * node.kinematic_normal()[r];
-              if (closed.size() > 0 && coupling.is_displaced)
-                rhs.begin()[m] += closed.begin()[m];
-            }
+          const MultiplierRange &own = coupling.multipliers->range();
+          if (closed.size() > 0 && coupling.is_displaced)
+            for (unsigned int m = own.first; m < own.end(); ++m)
+              rhs.begin()[m] += closed.begin()[m];
+        }
   }
 
   Vector

@@ -174,7 +174,7 @@ namespace mortise
             std::max(given.search_distance.least, least_search);
         const auto slave = faces_of(given, given.slave);
         // tractions jump at edges
-        const auto patches =
+        auto patches =
           given.direction ?
             std::vector<std::vector<BoundaryFace>>{slave} :
             smooth_patches(*spaces.bodies[given.slave.body], slave);
@@ -187,9 +187,9 @@ namespace mortise
                                                 given.name,
                                               patches[k]));
             couplings.back().number = couplings.size() - 1;
-            slaves.push_back(patches[k]);
             faces += Utilities::MPI::sum(
               couplings.back().interface->slave().faces.size(), run.comm);
+            slaves.push_back(std::move(patches[k]));
           }
         if (patches.size() > 1)
           divided += ", " + given.name + " in " +
@@ -360,8 +360,9 @@ namespace mortise
     std::string balance;
     for (unsigned int i = 0; i < couplings.size(); ++i)
       integrate(interfaces[i], couplings[i]);
-    for (unsigned int i = 0; i < couplings.size(); ++i)
-      if (interfaces[i].follows_bodies && is_start())
+    const bool starts = is_start();
+    for (unsigned int i = 0; i < couplings.size() && starts; ++i)
+      if (interfaces[i].follows_bodies)
         find_overlap(i, slaves[i]);
     drop_patches_apart();
     for (unsigned int i = 0; i < couplings.size(); ++i)

@@ -3,6 +3,7 @@
 #include <mortise/base/rigid_motion.h>
 #include <mortise/operators/boundary_area.h>
 #include <mortise/problem/input/formulation.h>
+#include <mortise/problem/input/interface_law.h>
 #include <mortise/problem/scene/scene_data.h>
 
 #include <algorithm>
@@ -163,10 +164,7 @@ namespace mortise
   {
     return std::any_of(parameters.interfaces.begin(),
                        parameters.interfaces.end(),
-                       [](const InterfaceParameters &interface) {
-                         return is_one_sided(interface.law) &&
-                                !interface.ignores_mesh_gap;
-                       });
+                       has_mesh_gap);
   }
 
   namespace

@@ -1,6 +1,7 @@
 // See rows_by_node.h.
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/sort_unique.h>
 #include <mortise/solvers/factorisation/rows_by_node.h>
 
 #include <algorithm>
@@ -88,8 +89,7 @@ namespace mortise
                    matrix.columns.end(),
                    std::back_inserter(others),
                    [&](const int column) { return !is_owned(column); });
-      std::sort(others.begin(), others.end());
-      others.erase(std::unique(others.begin(), others.end()), others.end());
+      sort_unique(others);
       IndexSet of_others(nodes.size());
       of_others.add_indices(others.begin(), others.end());
       LinearAlgebra::distributed::Vector<double> all(nodes, of_others, comm);

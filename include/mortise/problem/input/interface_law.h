@@ -10,6 +10,10 @@ namespace mortise
   bool
   has_friction(const InterfaceParameters &interface);
 
+  /// Do gaps and overlaps of the meshes count?
+  bool
+  has_mesh_gap(const InterfaceParameters &interface);
+
   /// InterfaceLaw::stiffness throws InputError where it is not positive.
   InterfaceLaw
   interface_law(const Parameters          &parameters,
