@@ -53,7 +53,8 @@ namespace mortise
   bool
   has_mesh_gap(const InterfaceParameters &interface)
   {
-    return (is_one_sided(interface.law) || interface.follows_bodies) &&
+    return (is_one_sided(interface.law) ||
+            (interface.law == Law::slide && interface.follows_bodies)) &&
            !interface.ignores_mesh_gap;
   }
 
