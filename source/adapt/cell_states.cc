@@ -260,9 +260,85 @@ namespace mortise
   } // namespace
 
   void
-  split_cells(Body                    &body,
-              const std::vector<bool> &split,
-              std::vector<CellState>  &states)
+  lower(const ReferenceCell &cell, const unsigned int degree, CellState &state)
+  {
+    for (const OfState part : {&CellState::coefficients, &CellState::dual})
+      for (unsigned int c = 0; c < (state.*part).size(); ++c)
+        {
+          const unsigned int  less = c < dim ? 0 : 1; // of the pressure
+          std::vector<double> lower;
+          for (const unsigned int mode :
+               nested_modes(cell, degree - less, state.degree - less))
+            lower.push_back((state.*part)[c][mode]);
+          (state.*part)[c] = std::move(lower);
+        }
+    state.degree = state.history.degree = degree;
+  }
+
+  namespace
+  {
+    /// What @p of_child brings to @p coefficients of its parent, a hexahedron of @p degree.
+    void
+    add_child(const CellCoefficients &of_child,
+              const unsigned int      degree_of_child,
+              const unsigned int      child,
+              const unsigned int      degree,
+              CellCoefficients       &coefficients)
+    {
+      coefficients.resize(of_child.size());
+      for (unsigned int c = 0; c < of_child.size(); ++c)
+        {
+          const unsigned int  less  = c < dim ? 0 : 1;
+          const auto          modes = nested_modes(ReferenceCells::Hexahedron,
+                                          degree_of_child - less,
+                                          degree - less);
+          std::vector<double> raised(
+            Utilities::fixed_power<dim>(degree + 1 - less));
+          for (unsigned int i = 0; i < modes.size(); ++i)
+            raised[modes[i]] = of_child[c][i];
+          const auto part = merge_from_child(degree - less, child, raised);
+          coefficients[c].resize(part.size(), 0.);
+          for (unsigned int i = 0; i < part.size(); ++i)
+            coefficients[c][i] += part[i];
+        }
+    }
+
+    /// Of a cell whose children have @p states, with the largest degree of them.
+    CellState
+    state_of_parent(const std::vector<CellState> &states)
+    {
+      CellState result;
+      result.history       = states.front().history;
+      CellHistory &history = result.history;
+      history.change = history.error = history.violation = 0.;
+      history.n_rises                                    = 0;
+      history.fall                                       = 1.;
+      for (const CellState &state : states)
+        {
+          const CellHistory &own = state.history;
+          result.degree          = std::max(result.degree, state.degree);
+          history.change += own.change;
+          history.error += own.error;
+          history.violation += own.violation;
+          history.by_residual = std::max(history.by_residual, own.by_residual);
+          history.ratio       = std::max(history.ratio, own.ratio);
+          history.is_new |= own.is_new;
+          history.at_free_boundary |= own.at_free_boundary;
+        }
+      history.degree = result.degree;
+      for (const OfState part : {&CellState::coefficients, &CellState::dual})
+        for (unsigned int c = 0; c < states.size(); ++c)
+          add_child(
+            states[c].*part, states[c].degree, c, result.degree, result.*part);
+      return result;
+    }
+  } // namespace
+
+  void
+  change_cells(Body                    &body,
+               const std::vector<bool> &split,
+               const std::vector<bool> &merge,
+               std::vector<CellState>  &states)
   {
     auto &triangulation =
       dynamic_cast<HexTriangulation &>(*body.mesh.triangulation);
@@ -272,19 +348,36 @@ namespace mortise
     static const Triangulation<dim> no_cells;
     body.dof_handler.reinit(no_cells);
     for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned() && split[cell->active_cell_index()])
-        cell->set_refine_flag();
+      if (const unsigned int k = cell->active_cell_index();
+          cell->is_locally_owned())
+        {
+          if (split[k])
+            cell->set_refine_flag();
+          else if (merge[k])
+            cell->set_coarsen_flag();
+        }
     triangulation.prepare_coarsening_and_refinement();
 
     using Cell   = HexTriangulation::cell_iterator;
     using Status = HexTriangulation::CellStatus;
-    const auto balance =
-      triangulation.signals.weight.connect([&](const Cell &cell, Status) {
-        return work(states[cell->active_cell_index()].history.degree);
+    // of a cell, or of those that become one
+    const auto states_of = [&](const Cell &cell, const Status status) {
+      if (status != HexTriangulation::CELL_COARSEN)
+        return std::vector<CellState>{states[cell->active_cell_index()]};
+      std::vector<CellState> result;
+      for (unsigned int c = 0; c < cell->n_children(); ++c)
+        result.push_back(states[cell->child(c)->active_cell_index()]);
+      return result;
+    };
+    const auto balance = triangulation.signals.weight.connect(
+      [&](const Cell &cell, const Status status) {
+        const Cell one =
+          status == HexTriangulation::CELL_COARSEN ? cell->child(0) : cell;
+        return work(states[one->active_cell_index()].history.degree);
       });
     const unsigned int handle = triangulation.register_data_attach(
-      [&](const Cell &cell, Status) {
-        return Utilities::pack(states[cell->active_cell_index()], false);
+      [&](const Cell &cell, const Status status) {
+        return Utilities::pack(states_of(cell, status), false);
       },
       true);
     triangulation.execute_coarsening_and_refinement();
@@ -296,14 +389,18 @@ namespace mortise
     states.resize(triangulation.n_active_cells());
     triangulation.notify_ready_to_unpack(
       handle, [&](const Cell &cell, const Status status, const auto &data) {
-        CellState state =
-          Utilities::unpack<CellState>(data.begin(), data.end(), false);
-        if (status != HexTriangulation::CELL_REFINE)
-          states[cell->active_cell_index()] = std::move(state);
-        else
+        const auto before =
+          Utilities::unpack<std::vector<CellState>>(data.begin(),
+                                                    data.end(),
+                                                    false);
+        if (status == HexTriangulation::CELL_REFINE)
           for (unsigned int c = 0; c < cell->n_children(); ++c)
             states[cell->child(c)->active_cell_index()] =
-              state_of_child(state, c);
+              state_of_child(before.front(), c);
+        else
+          states[cell->active_cell_index()] =
+            status == HexTriangulation::CELL_COARSEN ? state_of_parent(before) :
+                                                       before.front();
       });
     body.dof_handler.reinit(triangulation);
   }

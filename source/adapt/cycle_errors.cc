@@ -104,17 +104,17 @@ namespace mortise
   } // namespace
 
   const std::vector<BodySolution> &
-  CycleErrors::start(const Bodies &bodies, const bool spaces_are_nested)
+  CycleErrors::start(const Bodies &bodies, const bool go_on)
   {
-    if (spaces_are_nested)
+    if (go_on)
       earlier = embedded(bodies, cells);
     return earlier;
   }
 
   const std::vector<BodySolution> &
-  CycleErrors::dual_start(const Bodies &bodies, const bool spaces_are_nested)
+  CycleErrors::dual_start(const Bodies &bodies, const bool go_on)
   {
-    if (spaces_are_nested)
+    if (go_on)
       earlier_dual = embedded(bodies, cells, &CellState::dual);
     return earlier_dual;
   }
@@ -157,6 +157,8 @@ namespace mortise
       forget_estimate();
     else
       estimate(bodies, solutions, dual, residuals, norm);
+    earlier.clear();
+    earlier_dual.clear();
     memory.residual = sums_by_body(residuals.equations, comm);
     if (dual)
       memory.value = dual->value;
@@ -168,6 +170,16 @@ namespace mortise
         sums.largest /
           (dual ? upper_estimate : upper_estimate * upper_estimate) :
         0.;
+  }
+
+  void
+  CycleErrors::begin_step()
+  {
+    memory = {};
+    sums   = {};
+    interface_residuals.clear();
+    correction.reset();
+    quantity_is_zero = false;
   }
 
   void
@@ -208,8 +220,11 @@ namespace mortise
                         const Residuals                   &residuals,
                         const double                       norm)
   {
-    const std::vector<double> changes = update_history(bodies, solutions, dual);
-    const double              unit    = norm > 0. ? norm : 1.;
+    // the first cycle of a step has no change of its own
+    const std::vector<double> changes =
+      memory.n_cycles > 0 ? update_history(bodies, solutions, dual) :
+                            std::vector<double>(bodies.size(), 0.);
+    const double unit = norm > 0. ? norm : 1.;
     ++memory.n_estimates;
     if (dual)
       {
@@ -219,11 +234,12 @@ namespace mortise
         correction = sums.with_sign + memory.error_of_rest;
         return;
       }
+    const std::vector<double> now = sums_by_body(residuals.equations, comm);
     set_errors(bodies,
                residuals,
                squares_by_residual(changes,
-                                   memory.residual,
-                                   sums_by_body(residuals.equations, comm)),
+                                   memory.n_cycles > 0 ? memory.residual : now,
+                                   now),
                cells);
     sums                    = error_sums(bodies, cells);
     const double conditions = total(residuals.conditions, comm),
@@ -282,8 +298,6 @@ namespace mortise
                                               least_ratio_of_rest)
                                  .left;
       }
-    earlier.clear();
-    earlier_dual.clear();
     return sums_by_body(changes, comm);
   }
 

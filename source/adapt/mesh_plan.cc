@@ -130,6 +130,8 @@ namespace mortise
     else if (plan.unknowns > options.most_unknowns)
       plan.limit = MeshPlan::Limit::most_unknowns;
     plan.splits = prepare_refinement(bodies, choices, states);
+    for (const auto &of_body : plan.splits)
+      plan.merges.emplace_back(of_body.size(), false);
     return plan;
   }
 } // namespace mortise

@@ -1,8 +1,7 @@
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/grid/grid_tools.h>
-
 #include <mortise/adapt/error_estimate.h>
+#include <mortise/adapt/largest_around.h>
 #include <mortise/adapt/refinement.h>
 
 #include <algorithm>
@@ -93,33 +92,6 @@ namespace mortise
           (left_by_next(middle) < aim * allowed ? least : most) = middle;
         }
       return least;
-    }
-
-    /// By owned cell, the largest that @p number(cell) is on it and the cells around it. Collective.
-    template <typename Number>
-    std::vector<unsigned int>
-    largest_around(const Triangulation<dim> &triangulation,
-                   const Number             &number)
-    {
-      std::vector<unsigned int> at_vertex(triangulation.n_vertices(), 0);
-      const auto take = [&](const auto &cell, const unsigned int of_cell) {
-        for (const unsigned int v : cell->vertex_indices())
-          at_vertex[cell->vertex_index(v)] =
-            std::max(at_vertex[cell->vertex_index(v)], of_cell);
-      };
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          take(cell, number(cell));
-      GridTools::exchange_cell_data_to_ghosts<unsigned int, Triangulation<dim>>(
-        triangulation, number, take);
-      std::vector<unsigned int> result(triangulation.n_active_cells(), 0);
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const unsigned int v : cell->vertex_indices())
-            result[cell->active_cell_index()] =
-              std::max(result[cell->active_cell_index()],
-                       at_vertex[cell->vertex_index(v)]);
-      return result;
     }
 
     /// Where cells rise, those around with less rise by one: what a cell has

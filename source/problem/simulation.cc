@@ -104,10 +104,7 @@ namespace mortise
     if (!state.contact && restart.empty())
       state.contact = contact_start(context, steps.next(), bodies);
     equations.reset();
-    // meshes of the last step do not suit the next one
-    if (adaptivity && adaptivity->n_cycles() == 0 && !first)
-      create_meshes();
-    else if (adaptivity)
+    if (adaptivity)
       adaptivity->refine(bodies);
     const CyclePlan plan = cycle_plan();
     equations            = std::make_unique<SceneSolver>(
@@ -274,9 +271,7 @@ namespace mortise
        {{}, state.path.tangent},
        state.contact,
        state.shortenings},
-      adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
-        to_bytes(adaptivity->checkpoint()) :
-        std::string(),
+      adaptivity ? to_bytes(adaptivity->checkpoint()) : std::string(),
       summary.steps,
       output.files.written()};
     output.write_checkpoint(to_sections(checkpoint),

@@ -117,9 +117,11 @@ namespace mortise
   void
   Simulation::run_cycles(const bool writes)
   {
+    const bool after_step =
+      adaptivity && parameters.steps.given() && !(state.time > steps.time());
     if (!adaptivity)
       adaptivity.emplace(context);
-    else if (adaptivity->reached())
+    else if (adaptivity->reached() && !parameters.steps.given())
       context.log.line("the target was reached before: " +
                        found(*adaptivity, bodies));
     else
@@ -129,12 +131,14 @@ namespace mortise
         discretise();
         restore(restart);
       }
+    if (after_step)
+      adaptivity->begin_step(bodies);
     cycle(writes);
     while (parameters.steps.given() && report.converged &&
            adaptivity->reached() && !steps.finished() &&
            output.unwritten().empty())
       {
-        adaptivity.emplace(context);
+        adaptivity->begin_step(bodies);
         cycle(writes);
       }
     summary.status = !report.converged ? "not converged" :

@@ -65,7 +65,7 @@ namespace mortise
                    checkpoint.longest_step);
     if (ends_path())
       steps.finish();
-    if (adaptivity && !steps.finished())
+    if (adaptivity && !steps.finished() && state.time > checkpoint.reached)
       state.time = steps.next();
     output.begin_at(steps.fraction());
   }

@@ -1,8 +1,8 @@
 // Proves that solutions keep every digit when cells are cut and degrees rise:
 // energy, moments and the conditions of hanging nodes, on hexahedra and, for
-// degrees, tetrahedra, with and without a pressure; that histories follow their
-// cells; which cells are cut with others; and that no rank is left without
-// cells.
+// degrees, tetrahedra, with and without a pressure, also where all that is
+// undone; that histories follow their cells; which cells are cut with others;
+// and that no rank is left without cells.
 #include <deal.II/base/mpi.h>
 
 #include <mortise/adapt/cell_states.h>
@@ -151,7 +151,7 @@ namespace
                                                         chosen[0].end(),
                                                         Refinement::split),
                                              MPI_COMM_WORLD);
-        split_cells(body, split, states[0]);
+        change_cells(body, split, std::vector<bool>(split.size()), states[0]);
         verdict(what + ": cells that are cut with others",
                 std::fabs(double(body.triangulation().n_global_active_cells()) -
                           n - 7. * cut),
@@ -188,6 +188,89 @@ namespace
               std::fabs(then[i] / before[i] - 1.),
               1e-11);
   }
+
+  /// Give all cells the degrees of their histories.
+  void
+  use_degrees(Body &body, const std::vector<CellState> &states)
+  {
+    std::vector<unsigned int> degrees;
+    for (const CellState &state : states)
+      degrees.push_back(state.history.degree);
+    body.create_space(degrees);
+  }
+
+  /// Cells are cut and rise, then fall and become one again.
+  void
+  check_undone(const bool mixed)
+  {
+    const std::string what = mixed ? "undone, mixed" : "undone";
+    Bodies            bodies;
+    bodies.push_back(make_body("hexahedra", mixed));
+    Body &body     = *bodies.front();
+    auto  solution = zero_solutions(bodies);
+    fill(body.dof_handler, body.conformity, solution[0].displacement);
+    if (mixed)
+      fill(body.pressure->dof_handler,
+           body.pressure->conformity,
+           solution[0].pressure);
+    const auto before  = integrals(bodies, solution);
+    const auto n_cells = body.triangulation().n_global_active_cells();
+    CellStates states;
+    set_coefficients(bodies, solution, states);
+    for (CellState &state : states[0])
+      {
+        state.history.degree = state.degree + 1;
+        state.history.error  = 1.;
+      }
+    const std::vector<bool> none(states[0].size(), false),
+      all(states[0].size(), true);
+    change_cells(body, all, none, states[0]);
+    use_degrees(body, states[0]);
+    set_coefficients(bodies, embedded(bodies, states), states);
+    verdict(what + ": cells that were cut",
+            std::fabs(double(body.triangulation().n_global_active_cells()) -
+                      8. * n_cells),
+            0.);
+    for_each_cell(bodies,
+                  states,
+                  [](const Body &, const auto &cell, CellState &state) {
+                    lower(cell->reference_cell(), state.degree - 1, state);
+                  });
+    // of the first cell the mesh has cut one, too
+    const auto beside_first = [](const auto &cell) {
+      return cell->center()[0] > 0.5 || cell->center()[1] > 1.;
+    };
+    for (int level = 2; level > 0; --level)
+      {
+        std::vector<bool> merge;
+        for (const auto &cell : body.triangulation().active_cell_iterators())
+          merge.push_back(cell->level() == level && cell->is_locally_owned() &&
+                          (level == 2 || beside_first(cell->parent())));
+        change_cells(body,
+                     std::vector<bool>(merge.size(), false),
+                     merge,
+                     states[0]);
+      }
+    use_degrees(body, states[0]);
+    verdict(what + ": cells",
+            std::fabs(double(body.triangulation().n_global_active_cells()) -
+                      n_cells),
+            0.);
+    double errors = 0.;
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &, const auto &, const CellState &state) {
+                    errors += state.history.error;
+                  });
+    verdict(what + ": history",
+            std::fabs(Utilities::MPI::sum(errors, MPI_COMM_WORLD) - n_cells),
+            1e-12);
+    const auto after = integrals(bodies, embedded(bodies, states));
+    for (unsigned int i = 0; i < (mixed ? 3 : 2); ++i)
+      verdict(what + ": integral " + std::to_string(i),
+              std::fabs(after[i] / before[i] - 1.),
+              1e-11);
+  }
 } // namespace
 
 int
@@ -200,4 +283,6 @@ main(int argc, char *argv[])
   for (const bool mixed : {false, true})
     for (const std::string cells : {"hexahedra", "tetrahedra"})
       check(cells, mixed);
+  for (const bool mixed : {false, true})
+    check_undone(mixed);
 }

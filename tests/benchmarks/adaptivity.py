@@ -154,7 +154,8 @@ Regenerate: `tests/benchmarks/adaptivity.py build/mortise` writes this section a
 
 What is missed, and what is not there:
 
-- Meshes are not carried from load step to load step. With `Steps`, every step begins with the first mesh and has cycles of its own.
+- From load step to load step meshes go on for the energy norm alone; with a `Quantity` every step begins with the first mesh. Those of tetrahedra do not become coarser, their degrees do. Where a solution stays at one place,
+  the first cycle of a step is too coarse, and a second one makes it fine again.
 - The tolerance of the linear solver does not follow the estimate. This was tried: solves take a tenth of the time of all cycles (curved blocks
   at 1e-7: 0.11 of 1.15 s), a tolerance ten times as large gains 3 %, and one a hundred times as large makes estimates wrong.
 - Estimates in single cycles (goal: 0.8 to 4 times the error) are 0.68 and 0.64 in the first two cycles of the curved blocks. At the end (goal:
@@ -223,6 +224,9 @@ cubes, an L, shells and cylinders, with random subdivisions, degrees 1 to 6 (als
 | 1618033, before each body had a factor of its own | 20000 | 726 | - | 476, 0, 0.87 | - |
 | 5772156 | 20000 | 720 | - | 458, 0, 0.90 | - |
 | 141421 | 8000 | 86 | 43, 3, 1.49 | 43, 0, 0.65 | 1.00 |
+
+With `--steps --number 600 --seed 53` each start has four load steps, in which smooth fields move by up to 0.3 of the body along each
+axis: of 438 starts 231 met their target in all steps, and in no step that met it the error was above the target (0.82 of it at most).
 
 ### Each cycle
 

@@ -4,7 +4,7 @@
 Bodies of all generators with meshes, degrees, strategies, materials, boundary conditions and exact fields that are drawn; the exact
 solution tells the error of a run that says that its target is met. Prints runs whose error is above the target, and the seconds of
 the processor beside those of another binary on the same starts. --write FILE: starts, one a line, as tests/scenes/adaptivity_starts
-reads them. --nonlinear: those of nonlinear_starts.py."""
+reads them. --nonlinear: those of nonlinear_starts.py. --steps: in four load steps, in which smooth fields move."""
 import argparse
 import concurrent.futures
 import functools
@@ -12,6 +12,7 @@ import json
 import math
 import os
 import random
+import re
 import resource
 import statistics
 import subprocess
@@ -249,7 +250,13 @@ def value_at(expression, point):
     return eval(compiled(expression), {**names, **dict(zip("xyz", point))})
 
 
-def start(seed, number, quantity=False, nonlinear=False):
+def moving(lot, components, axes):
+    """The same field, moved by up to 0.3 along each of the axes from step to step."""
+    shift = {axis: f"({axis}-{near(lot.uniform(-0.3, 0.3))}*(t-1))" if axis in axes else axis for axis in "xyz"}
+    return [re.sub(r"\b[xyz]\b", lambda found: shift[found.group()], c) for c in components]
+
+
+def start(seed, number, quantity=False, nonlinear=False, steps=False):
     """Name, settings and, with a quantity, its exact value of one start; its target is drawn as a part of its first error."""
     lot = random.Random(f"{seed} {number}")
     if nonlinear:
@@ -262,6 +269,10 @@ def start(seed, number, quantity=False, nonlinear=False):
     else:
         scale = 1. if nonlinear or name == "fichera" else 10. ** lot.uniform(-3., 0.)
         settings.append("Exact solution/Displacement=" + "; ".join(f"{amount(scale)}*({c})" for c in components))
+    if steps:
+        settings.append("Steps/Step=1, 2, 3, 4")
+        if components is not None and field not in ("point", "edge", "corner"):
+            settings[-2] = "Exact solution/Displacement=" + "; ".join(f"{amount(scale)}*({c})" for c in moving(lot, components, "xy" if name == "two boxes" else "xyz"))
     strategy = lot.choice(["hp", "hp", "hp", "h", "p"])
     settings += [f"Adaptivity/Strategy={strategy}", "Output/Fields="]
     part, exact = 10. ** lot.uniform(-1.1, -0.05), None
@@ -315,12 +326,12 @@ def error_of(step, exact):
 
 
 def cycles(summary, exact):
-    return [{"unknowns": step["dofs"]["total"], "error": error_of(step, exact), "estimate": step["adaptivity"].get("estimate")} for step in summary["steps"]]
+    return [{"step": step.get("step", 1), "unknowns": step["dofs"]["total"], "error": error_of(step, exact), "estimate": step["adaptivity"].get("estimate")} for step in summary["steps"]]
 
 
 def measure(arguments):
-    binaries, seed, number, unknowns, idle, quantity, nonlinear = arguments
-    name, settings, part, exact = start(seed, number, quantity, nonlinear)
+    binaries, seed, number, unknowns, idle, quantity, nonlinear, steps = arguments
+    name, settings, part, exact = start(seed, number, quantity, nonlinear, steps)
     if quantity and exact is None:
         return {"name": name, "skipped": "no exact value, or one of nearly zero"}
     settings.append(f"Adaptivity/Largest number of unknowns={unknowns}")
@@ -349,22 +360,29 @@ def measure(arguments):
     return result
 
 
+def worst(one):
+    """Of the last cycles of the steps that met their target, that with the largest error."""
+    ends = one["cycles"] if one["code"] == 0 else [c for c in one["cycles"] if c["step"] < one["cycles"][-1]["step"]]
+    return max({c["step"]: c for c in ends}.values(), key=lambda c: c["error"], default=None)
+
+
 def false(one, target):
-    return one["code"] == 0 and one["cycles"][-1]["error"] > target
+    end = worst(one) if one.get("cycles") else None
+    return end is not None and end["error"] > target
 
 
 def report(results, binaries):
     for k, binary in enumerate(binaries):
         ended = [r for r in results if "runs" in r]
         met = [r for r in ended if r["runs"][k]["code"] == 0]
-        wrong = [r for r in met if false(r["runs"][k], r["target"])]
+        wrong = [r for r in ended if false(r["runs"][k], r["target"])]
         codes = sorted({str(r["runs"][k]["code"]) for r in ended})
-        print(f"{binary}: {len(ended)} starts, exit codes " + ", ".join(f"{c}: {sum(str(r['runs'][k]['code']) == c for r in ended)}" for c in codes) + f"; false at exit 0: {len(wrong)}")
-        for r in sorted(wrong, key=lambda r: -r["runs"][k]["cycles"][-1]["error"] / r["target"]):
-            last = r["runs"][k]["cycles"][-1]
+        print(f"{binary}: {len(ended)} starts, exit codes " + ", ".join(f"{c}: {sum(str(r['runs'][k]['code']) == c for r in ended)}" for c in codes) + f"; false at exit 0 or in a step before: {len(wrong)}")
+        for r in sorted(wrong, key=lambda r: -worst(r["runs"][k])["error"] / r["target"]):
+            last = worst(r["runs"][k])
             print(f"  FALSE {r['name']}: target {r['target']:.2e}, error {last['error']:.2e} ({last['error'] / r['target']:.2f} times), estimate {last['estimate']:.2e}")
         if met:
-            parts = sorted(r["runs"][k]["cycles"][-1]["error"] / r["target"] for r in met)
+            parts = sorted(worst(r["runs"][k])["error"] / r["target"] for r in met)
             print(f"  error by target: median {statistics.median(parts):.2f}, largest {parts[-1]:.2f}; seconds: {sum(r['runs'][k]['seconds'] for r in ended):.0f}")
     if len(binaries) == 2:
         both = [r for r in results if "runs" in r and all(one["code"] == 0 for one in r["runs"])]
@@ -386,6 +404,7 @@ def main():
     parser.add_argument("--unknowns", type=int, default=20000, help="the largest number in a run")
     parser.add_argument("--quantity", action="store_true", help="targets are those of a displacement at a point")
     parser.add_argument("--nonlinear", action="store_true", help="starts of nonlinear_starts.py")
+    parser.add_argument("--steps", action="store_true", help="several load steps, in which smooth fields move")
     parser.add_argument("--only", help="numbers of starts, separated by commas")
     parser.add_argument("--json", help="a file for all that was measured")
     parser.add_argument("--write", help="a file for the starts whose targets were met soon")
@@ -396,7 +415,7 @@ def main():
     numbers = [int(n) for n in given.only.split(",")] if given.only else range(given.first, given.first + given.number)
     results = []
     with concurrent.futures.ProcessPoolExecutor(given.jobs) as pool:
-        for result in pool.map(measure, [(binaries, given.seed, n, given.unknowns, idle, given.quantity, given.nonlinear) for n in numbers]):
+        for result in pool.map(measure, [(binaries, given.seed, n, given.unknowns, idle, given.quantity, given.nonlinear, given.steps) for n in numbers]):
             results.append(result)
             for one in result.get("runs", []):
                 if one["code"] not in (0, 3):

@@ -169,8 +169,9 @@ check_transfer(const unsigned int p)
   std::vector<double> parent(n);
   for (unsigned int i = 0; i < n; ++i)
     parent[i] = std::cos(1. + 3. * i);
-  double         worst = 0.;
-  const Point<3> y(0.21, 0.6, 0.87);
+  double              worst = 0.;
+  std::vector<double> merged(n, 0.);
+  const Point<3>      y(0.21, 0.6, 0.87);
   for (unsigned int child = 0; child < 8; ++child)
     {
       const auto     child_values = embed_in_child(p, child, parent);
@@ -179,9 +180,16 @@ check_transfer(const unsigned int p)
       for (unsigned int i = 0; i < n; ++i)
         difference += parent[i] * fe.shape_value(i, x) -
                       child_values[i] * fe.shape_value(i, y);
-      worst = std::max(worst, std::abs(difference));
+      worst           = std::max(worst, std::abs(difference));
+      const auto part = merge_from_child(p, child, child_values);
+      for (unsigned int i = 0; i < n; ++i)
+        merged[i] += part[i];
     }
   verdict("p=" + std::to_string(p) + " prolongation is exact", worst, 1e-12);
+  worst = 0.;
+  for (unsigned int i = 0; i < n; ++i)
+    worst = std::max(worst, std::abs(merged[i] - parent[i]));
+  verdict("p=" + std::to_string(p) + " merging undoes it", worst, 1e-12);
 }
 
 /// Error in L2 of the projection of a smooth function on a curved mesh.

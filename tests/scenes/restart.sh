@@ -107,6 +107,8 @@ disturbed cycles 1e-4 "${targets[@]}" "${corner[@]}"
 disturbed meshes 1e-4 "${targets[@]}" "${corner[@]}" --set "Body upper/Mesh/File=$prm/../meshes/l_shape_tet.geo" \
   --set "Body upper/Mesh/Mesh size=0.7"
 
+disturbed moving 1e-4 "Steps/Step=1, 1.5" "Steps/Step=1, 1.5, 2" "$prm/../tests/field/bump_moves_over_a_tie.prm" --set "Steps/Step=1, 1.5, 2"
+
 # along a path beyond its largest load, whose times the program finds
 balloon=$prm/../tests/field/balloon_past_its_maximum.prm
 on 1 --output "$work/path-whole" "$balloon" --set "Steps/Number of steps=10"

@@ -63,12 +63,12 @@ namespace mortise
     {}
 
     /// The solution of the cycle before in the spaces that @p bodies have now,
-    /// if they go on from its spaces (@p spaces_are_nested), and that of its
+    /// if these go on from its spaces (@p go_on), and that of its
     /// dual problem; else empty. Collective.
     const std::vector<BodySolution> &
-    start(const Bodies &bodies, bool spaces_are_nested);
+    start(const Bodies &bodies, bool go_on);
     const std::vector<BodySolution> &
-    dual_start(const Bodies &bodies, bool spaces_are_nested);
+    dual_start(const Bodies &bodies, bool go_on);
 
     /// The next cycle has been solved on @p bodies, which still have its spaces; @p dual: of a
     /// quantity, @p broken, by interface, and @p residuals: without. Collective.
@@ -78,6 +78,11 @@ namespace mortise
         const std::optional<DualSolution> &dual,
         std::vector<InterfaceResidual>     broken,
         const Residuals                   &residuals);
+
+    /// The next cycle is the first one of another load step, on cells of which
+    /// something is known already or, like at the beginning, nothing.
+    void
+    begin_step();
 
     /// Of all interfaces, relative. A solution is at least as far from the
     /// exact one as from those whose sides are not apart; under contact it is

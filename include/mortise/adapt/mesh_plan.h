@@ -28,7 +28,8 @@ namespace mortise
       most_unknowns
     };
 
-    std::vector<std::vector<bool>> splits; ///< by body and active cell
+    /// By body and active cell, see change_cells(); empty: none.
+    std::vector<std::vector<bool>> splits, merges;
     std::vector<Remeshing>         meshes; ///< by body; empty: none is new
     Limit                          limit    = Limit::none;
     double                         unknowns = 0.; ///< of the next cycle, about

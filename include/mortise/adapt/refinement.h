@@ -65,7 +65,7 @@ namespace mortise
          const CellStates  &states,
          const Refinements &refinements);
 
-  /// Write @p refinements into the histories of @p states; which cells split_cells() is to cut.
+  /// Write @p refinements into the histories of @p states; which cells change_cells() is to cut.
   std::vector<std::vector<bool>>
   prepare_refinement(const Bodies      &bodies,
                      const Refinements &refinements,

@@ -66,7 +66,7 @@ namespace mortise
     /// Step by step on one mesh.
     void
     run_steps(bool writes);
-    /// Each step with adaptive cycles from the first mesh on.
+    /// Each step with adaptive cycles, from the mesh of the step before on.
     void
     run_cycles(bool writes);
     /// The cycles of one step.

@@ -6,6 +6,8 @@
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/legendre_basis.h>
 
+#include <array>
+
 namespace mortise
 {
   using namespace dealii;
@@ -97,31 +99,62 @@ namespace mortise
     return dofs;
   }
 
+  namespace
+  {
+    /// Of a cell of @p degree, with the matrix along(d) in each direction d.
+    template <typename Along>
+    std::vector<double>
+    transform(const unsigned int         degree,
+              const std::vector<double> &coefficients,
+              const Along               &along)
+    {
+      const unsigned int              n    = degree + 1;
+      const std::vector<unsigned int> dofs = cell_dof_indices(degree);
+      AssertDimension(coefficients.size(), dofs.size());
+      std::vector<double> tensor(dofs.size()), result(dofs.size());
+      for (unsigned int l = 0; l < dofs.size(); ++l)
+        tensor[l] = coefficients[dofs[l]];
+      for (unsigned int d = 0, stride = 1; d < 3; ++d, stride *= n)
+        {
+          const FullMatrix<double> &matrix = along(d);
+          const std::vector<double> before = tensor;
+          for (unsigned int l = 0; l < tensor.size(); ++l)
+            {
+              const unsigned int i = l / stride % n;
+              tensor[l]            = 0.;
+              for (unsigned int j = 0; j < n; ++j)
+                tensor[l] += matrix(i, j) * before[l + j * stride - i * stride];
+            }
+        }
+      for (unsigned int l = 0; l < dofs.size(); ++l)
+        result[dofs[l]] = tensor[l];
+      return result;
+    }
+  } // namespace
+
   std::vector<double>
   embed_in_child(const unsigned int         degree,
                  const unsigned int         child,
                  const std::vector<double> &parent)
   {
-    const unsigned int              n    = degree + 1;
-    const std::vector<unsigned int> dofs = cell_dof_indices(degree);
-    AssertDimension(parent.size(), dofs.size());
-    std::vector<double> tensor(dofs.size()), result(dofs.size());
-    for (unsigned int l = 0; l < dofs.size(); ++l)
-      tensor[l] = parent[dofs[l]];
-    for (unsigned int d = 0, stride = 1; d < 3; ++d, stride *= n)
-      {
-        const FullMatrix<double> &along  = lobatto_restriction(child >> d & 1);
-        const std::vector<double> before = tensor;
-        for (unsigned int l = 0; l < tensor.size(); ++l)
-          {
-            const unsigned int i = l / stride % n;
-            tensor[l]            = 0.;
-            for (unsigned int j = 0; j < n; ++j)
-              tensor[l] += along(i, j) * before[l + j * stride - i * stride];
-          }
-      }
-    for (unsigned int l = 0; l < dofs.size(); ++l)
-      result[dofs[l]] = tensor[l];
-    return result;
+    return transform(degree,
+                     parent,
+                     [&](const unsigned int d) -> const FullMatrix<double> & {
+                       return lobatto_restriction(child >> d & 1);
+                     });
+  }
+
+  std::vector<double>
+  merge_from_child(const unsigned int         degree,
+                   const unsigned int         child,
+                   const std::vector<double> &of_child)
+  {
+    const std::array<FullMatrix<double>, 2> halves = {
+      {lobatto_merging(degree, 0), lobatto_merging(degree, 1)}};
+    return transform(degree,
+                     of_child,
+                     [&](const unsigned int d) -> const FullMatrix<double> & {
+                       return halves[child >> d & 1];
+                     });
   }
 } // namespace mortise

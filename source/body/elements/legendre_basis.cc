@@ -117,6 +117,25 @@ namespace mortise
     return restrictions[child];
   }
 
+  FullMatrix<double>
+  lobatto_merging(const unsigned int degree, const unsigned int child)
+  {
+    const FullMatrix<double> &restriction = lobatto_restriction(child);
+    FullMatrix<double>        result(degree + 1, degree + 1);
+    result(child, child) = 1.;
+    // int_0^1 N_k' u' dx, where slopes on a half are twice those in its own
+    // coordinate
+    for (unsigned int k = 2; k <= degree; ++k)
+      {
+        const double slope = restriction(1, k) - restriction(0, k);
+        result(k, 0)       = -2. * slope;
+        result(k, 1)       = 2. * slope;
+        for (unsigned int i = 2; i <= degree; ++i)
+          result(k, i) = 2. * restriction(i, k);
+      }
+    return result;
+  }
+
   namespace
   {
     /// N_k as a product of its roots: 0, 1 and the roots of P'_{k-1}, that is

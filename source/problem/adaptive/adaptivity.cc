@@ -1,6 +1,8 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/adapt/coarsening.h>
 #include <mortise/body/mesh/gmsh_model.h>
+#include <mortise/operators/cells/cell_histories.h>
 #include <mortise/problem/adaptive/adaptivity.h>
 #include <mortise/problem/input/formulation.h>
 
@@ -26,17 +28,23 @@ namespace mortise
   void
   Adaptivity::refine(Bodies &bodies)
   {
+    if (begins_anew)
+      bodies = create_meshes(run);
+    begins_anew = false;
     for (const auto &body : bodies)
       {
         const unsigned int b     = body->index;
         auto              &cells = of_cycle.cells;
-        if (!next.splits.empty())
+        if (!next.splits.empty() && !body->mesh.tetrahedra)
           {
-            const auto &split = next.splits[b];
-            const bool  any =
-              std::find(split.begin(), split.end(), true) != split.end();
-            if (Utilities::MPI::max(any ? 1 : 0, run.comm) == 1)
-              split_cells(*body, split, cells[b]);
+            const auto any = [](const std::vector<bool> &cells) {
+              return std::find(cells.begin(), cells.end(), true) != cells.end();
+            };
+            if (Utilities::MPI::max(any(next.splits[b]) || any(next.merges[b]) ?
+                                      1 :
+                                      0,
+                                    run.comm) == 1)
+              change_cells(*body, next.splits[b], next.merges[b], cells[b]);
           }
         if (next.meshes.empty() || next.meshes[b].sizes == nullptr)
           continue;
@@ -70,6 +78,45 @@ namespace mortise
     plan(bodies);
   }
 
+  double
+  Adaptivity::allowed_error() const
+  {
+    return of_cycle.memory.allowed_error *
+           (goal ? target() : target() * target());
+  }
+
+  void
+  Adaptivity::begin_step(const Bodies &bodies)
+  {
+    CoarseningOptions options;
+    for (const auto &body : bodies)
+      {
+        const BodyParameters &given = run.parameters.bodies[body->index];
+        options.first_degree.push_back(*given_degrees(given).begin());
+        options.first_level.push_back(
+          body->mesh.tetrahedra ? 0 : given.mesh.refinements);
+        options.forgets |= has_history(*body);
+      }
+    next     = {};
+    n_meshes = 0;
+    // errors of a quantity are known from how they fell since the first mesh,
+    // and splits of all cells would add up from step to step
+    begins_anew =
+      goal || (options.forgets && run.parameters.adaptivity.strategy == "h");
+    if (begins_anew)
+      {
+        of_cycle.cells.clear();
+        sizes.clear();
+      }
+    else
+      {
+        next.merges = coarsen(bodies, options, allowed_error(), of_cycle.cells);
+        for (const auto &of_body : next.merges)
+          next.splits.emplace_back(of_body.size(), false);
+      }
+    of_cycle.begin_step();
+  }
+
   void
   Adaptivity::plan(const Bodies &bodies)
   {
@@ -97,12 +144,10 @@ namespace mortise
                        ": tetrahedra without a geometry keep their size, "
                        "degrees alone rise");
       }
-    std::optional<double> allowed_error;
+    std::optional<double> allowed;
     if (of_cycle.memory.estimate)
-      allowed_error =
-        of_cycle.memory.allowed_error * (goal ? target() : target() * target());
-    next =
-      plan_meshes(bodies, options, allowed_error, n_meshes, of_cycle.cells);
+      allowed = allowed_error();
+    next = plan_meshes(bodies, options, allowed, n_meshes, of_cycle.cells);
     if (!next.meshes.empty())
       ++n_meshes;
   }

@@ -77,7 +77,7 @@ namespace mortise
           any =
             Utilities::MPI::max(any, body.triangulation().get_communicator());
           if (any == 1)
-            split_cells(body, split, states);
+            change_cells(body, split, std::vector<bool>(split.size()), states);
         }
     }
   } // namespace

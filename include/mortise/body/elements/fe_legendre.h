@@ -55,4 +55,12 @@ namespace mortise
   embed_in_child(unsigned int               degree,
                  unsigned int               child,
                  const std::vector<double> &parent);
+
+  /// What the function with the coefficients @p of_child in child @p child brings to
+  /// those of a cell of the same @p degree: sums over all children of a function of
+  /// the cell give its coefficients, see lobatto_merging().
+  std::vector<double>
+  merge_from_child(unsigned int               degree,
+                   unsigned int               child,
+                   const std::vector<double> &of_child);
 } // namespace mortise

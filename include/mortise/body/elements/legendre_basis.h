@@ -42,6 +42,12 @@ namespace mortise
   const dealii::FullMatrix<double> &
   lobatto_restriction(unsigned int child);
 
+  /// What the coefficients of a continuous function on the half @p child bring to
+  /// those of its best approximation on [0,1], in the H1-seminorm and with the
+  /// same values at both ends: a square matrix of size @p degree + 1.
+  dealii::FullMatrix<double>
+  lobatto_merging(unsigned int degree, unsigned int child);
+
   /// The functions of evaluate_lobatto() as polynomials in the lexicographic
   /// order of deal.II's tensor product elements: N_0, N_2, ..., N_degree, N_1
   /// (the end of the interval last). They are kept as products of roots, which

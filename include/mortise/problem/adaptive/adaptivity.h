@@ -27,9 +27,9 @@ namespace mortise
       , of_cycle(run.parameters.solver.tolerance, run.comm)
     {}
 
-    /// Refine or remake the meshes of @p bodies as planned by the last add(),
-    /// if any; these bodies lose their spaces. Collective; throws InputError if
-    /// gmsh fails.
+    /// Change or remake the meshes of @p bodies as planned by the last add()
+    /// or begin_step(), if any; these bodies lose their spaces. Collective;
+    /// throws InputError if gmsh fails.
     void
     refine(Bodies &bodies);
 
@@ -37,22 +37,29 @@ namespace mortise
     CellDegrees
     degrees() const;
 
-    /// The last solution in the present spaces of @p bodies; empty in the first
-    /// cycle and on a new mesh. Collective.
+    /// The last solution in the present spaces of @p bodies, in the first cycle of a step about; empty in the
+    /// very first cycle and on a new mesh. Collective.
     const std::vector<BodySolution> &
     start(const Bodies &bodies)
     {
-      return of_cycle.start(bodies, spaces_are_nested());
+      return of_cycle.start(bodies, goes_on());
     }
 
     /// The same for the dual problem of quantity(). Collective.
     const std::vector<BodySolution> &
     dual_start(const Bodies &bodies)
     {
-      return of_cycle.dual_start(bodies, spaces_are_nested());
+      return of_cycle.dual_start(bodies, goes_on());
     }
 
-    /// Number of cycles that were added.
+    /// The next cycle is the first one of another load step: it has the meshes
+    /// of the last one, coarser where errors are small. For a quantity, and
+    /// where points have histories and cells are only cut, it has the first
+    /// ones. To be followed by refine(). Collective.
+    void
+    begin_step(const Bodies &bodies);
+
+    /// Number of cycles of the load step that were added.
     unsigned int
     n_cycles() const
     {
@@ -136,13 +143,16 @@ namespace mortise
     /// (doc/guide/adaptivity.md).
     static constexpr double least_effectivity = 0.9;
 
-    /// Do the spaces of the next cycle contain those of the last one?
+    /// Do the spaces of the next cycle go on from those of the last one?
     bool
-    spaces_are_nested() const
+    goes_on() const
     {
-      return n_cycles() > 0 && next.meshes.empty();
+      return !of_cycle.cells.empty() && next.meshes.empty();
     }
 
+    /// Of all cells together, in squares for the energy norm.
+    double
+    allowed_error() const;
     /// Plan degrees, splits and meshes unless the target is reached.
     /// Collective.
     void
@@ -155,7 +165,8 @@ namespace mortise
     const std::optional<Quantity> goal;
     CycleErrors                   of_cycle;
     MeshPlan                      next;
-    unsigned int                  n_meshes = 0; ///< number of remeshings
+    unsigned int                  n_meshes = 0;     ///< number of remeshings
+    bool begins_anew                       = false; ///< with the first meshes
     /// By body, sizes of the mesh; null: those of the file.
     std::vector<std::shared_ptr<const SizeField>> sizes;
     CycleCheckpoint                               kept;
