@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace mortise
 {
@@ -99,6 +100,7 @@ namespace mortise
       std::string         name;
       unsigned int        n_components;
       std::vector<double> coefficients;
+      bool                per_deformed_area = false; ///< else undeformed
     };
 
     std::vector<double>
@@ -136,6 +138,8 @@ namespace mortise
         fields.push_back({"slip", dim, {}});
       if (!coupling.law.is_one_sided())
         fields.push_back({"gap", dim, {}});
+      else if (!surface.undeformed.empty())
+        fields.push_back({"true_pressure", 1, {}, true});
       if (!faces)
         return fields;
       const auto spread = [&](FaceField &field) {
@@ -155,21 +159,52 @@ namespace mortise
           return fields;
         }
       auto next = contact.begin();
-      for (auto field = fields.begin() + 1; field != fields.end(); ++field)
+      for (auto field = fields.begin() + 1;
+           field != fields.end() && !field->per_deformed_area;
+           ++field)
         {
           field->coefficients.assign(next, next + field->n_components * n);
           next += field->n_components * n;
         }
       spread(fields[1]);
+      if (!surface.undeformed.empty())
+        fields.back().coefficients = fields[1].coefficients;
       return fields;
     }
 
+    /// Areas of a displaced slave by those where it was.
+    class Stretch
+    {
+    public:
+      Stretch(const BodySurface &surface, const unsigned int s)
+      {
+        before.reinit(surface.undeformed[s],
+                      surface.undeformed[s].frame.center);
+        after.reinit(surface.faces[s], surface.faces[s].frame.center);
+      }
+
+      double
+      at(const Point<2> &xi) const
+      {
+        const Lanes x = broadcast(xi[0]), y = broadcast(xi[1]);
+        return after.area_element(x, y)[0] / before.area_element(x, y)[0];
+      }
+
+    private:
+      FacePolynomial before, after;
+    };
+
     void
-    add_face(const SurfaceFace            &face,
-             const TraceBasis             &basis,
+    add_face(const BodySurface            &surface,
+             const unsigned int            s,
              const std::vector<FaceField> &fields,
              VtuPiece                     &piece)
     {
+      const SurfaceFace     &face  = surface.undeformed_face(s);
+      const TraceBasis      &basis = surface.traces[s].basis();
+      std::optional<Stretch> stretch;
+      if (!surface.undeformed.empty())
+        stretch.emplace(surface, s);
       const LagrangeShape shape = basis.shape == FaceShape::triangle ?
                                     LagrangeShape::triangle :
                                     LagrangeShape::quadrilateral;
@@ -182,6 +217,7 @@ namespace mortise
           const auto xi = Point<2>(node[0], node[1]) / degree;
           basis.evaluate(xi[0], xi[1], values.data());
           piece.add_point(face_point(face, xi));
+          const double area = stretch ? stretch->at(xi) : 1.;
           for (unsigned int f = 0; f < fields.size(); ++f)
             for (unsigned int c = 0; c < fields[f].n_components; ++c)
               piece.of_points[f].values.push_back(
@@ -191,7 +227,8 @@ namespace mortise
                                      values.end(),
                                      fields[f].coefficients.begin() +
                                        c * values.size(),
-                                     0.));
+                                     0.) /
+                    (fields[f].per_deformed_area ? area : 1.));
         }
     }
   } // namespace
@@ -220,10 +257,7 @@ namespace mortise
         if (piece.of_points.empty())
           for (const FaceField &field : fields)
             piece.of_points.push_back({field.name, field.n_components, {}});
-        add_face(surface.undeformed_face(s),
-                 surface.traces[s].basis(),
-                 fields,
-                 piece);
+        add_face(surface, s, fields, piece);
         piece.of_cells[0].values.push_back(coupling.interface->coverage()[s]);
       }
     write_vtu_file(piece, file, slave_body.triangulation().get_communicator());

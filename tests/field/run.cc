@@ -10,6 +10,8 @@
 //   # expect /JSON/POINTER = NUMBER within NUMBER    of summary.json, absolute
 //   # expect /JSON/POINTER = NUMBER relative NUMBER
 //   # expect /JSON/POINTER < NUMBER                  or >
+//   # expect field NAME of FILE.vtu = NUMBER relative NUMBER
+//                          of a scalar, at all points at which it is a number
 // where /steps/last is the last one of /steps.
 // Exit code 0 when all of them hold, 1 with a line for each that does not, 2
 // for an expectation that cannot be read.
@@ -27,6 +29,7 @@
 #include <string>
 #include <vector>
 
+#include "../output/vtu_content.h"
 #include "../temporary_directory.h"
 
 namespace
@@ -70,6 +73,8 @@ namespace
     int            exit_code = 0;
     std::string    printed   = "";
     nlohmann::json summary   = {};
+
+    std::filesystem::path directory = {};
   };
 
   Outcome
@@ -79,7 +84,8 @@ namespace
     if (pipe == nullptr)
       throw std::runtime_error("cannot be started");
     Outcome outcome;
-    char    buffer[4096];
+    outcome.directory = output;
+    char buffer[4096];
     for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
       outcome.printed.append(buffer, n);
     const int status = pclose(pipe);
@@ -89,6 +95,34 @@ namespace
     if (summary)
       summary >> outcome.summary;
     return outcome;
+  }
+
+  // of "NAME of FILE.vtu = NUMBER relative NUMBER"; as difference()
+  std::string
+  difference_of_field(std::istringstream &words, const Outcome &outcome)
+  {
+    std::string name, of, file, relation, kind;
+    double      value = 0, tolerance = 0;
+    words >> name >> of >> file >> relation >> value >> kind >> tolerance;
+    if (!words || of != "of" || relation != "=" || kind != "relative")
+      throw std::runtime_error(
+        "a field has the form 'field NAME of FILE.vtu = NUMBER relative NUMBER'");
+    const mortise::testing::VtuContent content(outcome.directory / file);
+    const auto                         field = content.data.find(name);
+    if (field == content.data.end())
+      return "there is none";
+    double worst = value;
+    bool   any   = false;
+    for (const std::vector<double> &at_point : field->second)
+      if (!std::isnan(at_point[0]))
+        {
+          any = true;
+          if (std::abs(at_point[0] - value) > std::abs(worst - value))
+            worst = at_point[0];
+        }
+    return any && std::abs(worst - value) <= tolerance * std::abs(value) ?
+             "" :
+             std::to_string(worst);
   }
 
   // "" when the expectation holds, else what was got
@@ -106,6 +140,8 @@ namespace
                  "" :
                  "exit code " + std::to_string(outcome.exit_code);
       }
+    if (first == "field")
+      return difference_of_field(words, outcome);
     if (first == "no")
       words >> second;
     if (!second.empty() && second[0] == '/')
