@@ -238,6 +238,15 @@ namespace mortise
       return range.width(step.run.comm);
     }
 
+    /// The size of a face of the slave, the mean. Collective.
+    double
+    size_of_face(const Coupling &coupling, const MPI_Comm comm)
+    {
+      const double n = coupling.interface->slave().faces.size();
+      return std::sqrt(coupling.interface->report().slave_area /
+                       Utilities::MPI::sum(n, comm));
+    }
+
     /// On a plane slip changes neither normals nor gaps.
     void
     warn_of_large_slip(const StepEvaluation &step,
@@ -246,27 +255,50 @@ namespace mortise
     {
       constexpr double rounding = 1e-6;
       const Coupling  &coupling = step.discretisation.interfaces().all()[i];
-      const InterfaceHandler &interface = *coupling.interface;
-      Tensor<1, dim>          normals;
-      std::vector<double>     counts(2); // of faces, of normals
+      const double     face     = size_of_face(coupling, step.run.comm);
+      Tensor<1, dim>   normals;
+      double           count = 0.;
       for (const auto &of_face : coupling.frames)
         {
-          counts[0] += 1.;
-          counts[1] += of_face.size();
+          count += of_face.size();
           for (const Frame &frame : of_face)
             normals += frame[0];
         }
       normals = Utilities::MPI::sum(normals, step.run.comm);
-      Utilities::MPI::sum(counts, step.run.comm, counts);
-      const double face = std::sqrt(interface.report().slave_area / counts[0]);
+      count   = Utilities::MPI::sum(count, step.run.comm);
       if (!coupling.is_displaced && slip > face &&
-          normals.norm() < (1. - rounding) * counts[1])
+          normals.norm() < (1. - rounding) * count)
         step.run.log.warning(
-          "interface " + interface.name() + ": the bodies slip by up to " +
-          RunLog::number(slip) + ", more than a face of the slave, about " +
-          RunLog::number(face) +
+          "interface " + coupling.interface->name() +
+          ": the bodies slip by up to " + RunLog::number(slip) +
+          ", more than a face of the slave, about " + RunLog::number(face) +
           "; normals and pairs of faces stay those of the start, which holds for less slip on a curved surface. "
           "Allowed: Sliding = finite");
+    }
+
+    /// Of bodies at finite strain, where sides have @p moved so far against each other: once for each doubling.
+    void
+    warn_of_large_motion(const StepEvaluation &step,
+                         const unsigned int    i,
+                         const double          moved)
+    {
+      const Pairing             &interfaces = step.discretisation.interfaces();
+      const InterfaceParameters &given      = interfaces.sides()[i];
+      const auto                &bodies     = step.discretisation.bodies();
+      const double               half =
+        0.5 * size_of_face(interfaces.all()[i], step.run.comm);
+      if (given.follows_bodies || moved < half ||
+          !(bodies[given.slave.body]->material.has_finite_strain() ||
+            bodies[given.master.body]->material.has_finite_strain()))
+        return;
+      const double least =
+        half * std::exp2(std::floor(std::log2(moved / half)));
+      step.run.log.warning(
+        "interface " + given.name + ": its sides move by more than " +
+        RunLog::number(least) +
+        " against each other, half a face of the slave is about " +
+        RunLog::number(half) +
+        ", and they keep the pairs and normals of the undeformed bodies. Allowed: Sliding = finite");
     }
 
     /// Throws InputError where a face without a partner could have met one.
@@ -330,6 +362,7 @@ namespace mortise
                 RunLog::number(contact.penetration_max) +
                 " between nodes, of " + RunLog::number(moved) +
                 " of relative motion; the contact there is smaller than the faces of the slave, which should be finer");
+            warn_of_large_motion(step, i, moved);
             if (contact.friction)
               warn_of_large_slip(step, i, contact.friction->slip_max);
             summary.interfaces[i].contact = contact;
