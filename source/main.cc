@@ -75,7 +75,7 @@ namespace
 int
 main(int argc, char *argv[])
 {
-  mortise::prepare_process();
+  mortise::prepare_process(argv);
   // PETSc, which deal.II may be built with, takes all arguments for its own
   int                                      n_for_libraries = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);

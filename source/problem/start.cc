@@ -1,3 +1,4 @@
+#include <dlfcn.h>
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
 #include <mortise/problem/start.h>
@@ -15,16 +16,21 @@
 extern "C"
 {
   void
-  openblas_set_num_threads(int) __attribute__((weak));
-  int
-  openblas_get_num_threads() __attribute__((weak));
-  void
   dpotrf_(const char *, const int *, double *, const int *, int *);
 }
 
 namespace
 {
   constexpr std::size_t blas_buffer = 128 << 20;
+
+  /// A function of OpenBLAS, which may be what the BLAS of the other libraries
+  /// is, or nullptr.
+  template <typename Function>
+  Function *
+  of_openblas(const char *name)
+  {
+    return reinterpret_cast<Function *>(dlsym(RTLD_DEFAULT, name));
+  }
 
   bool
   has_room(const std::size_t bytes)
@@ -130,9 +136,32 @@ namespace
   {
     if (loaded_on_one)
       sched_setaffinity(0, sizeof all_processors, &all_processors);
-    if (openblas_set_num_threads != nullptr &&
-        std::getenv("OPENBLAS_NUM_THREADS") == nullptr)
-      openblas_set_num_threads(1);
+    if (const auto set = of_openblas<void(int)>("openblas_set_num_threads");
+        set != nullptr && std::getenv("OPENBLAS_NUM_THREADS") == nullptr)
+      set(1);
+  }
+
+  /// OpenBLAS takes its oldest kernels on processors that are newer than
+  /// itself: at half the speed, and one of them (strsm of Prescott, in 0.3.21)
+  /// ends the program. It reads the name of others when it is loaded, so that
+  /// the program begins again with it.
+  void
+  use_kernels_of_processor(char *arguments[])
+  {
+    constexpr const char *variable = "OPENBLAS_CORETYPE";
+    const auto core = of_openblas<const char *()>("openblas_get_corename");
+    if (core == nullptr || std::getenv(variable) != nullptr ||
+        std::strcmp(core(), "Prescott") != 0)
+      return;
+#if defined(__x86_64__)
+    const char *name = __builtin_cpu_supports("avx512dq") ? "SkylakeX" :
+                       __builtin_cpu_supports("avx2")     ? "Haswell" :
+                                                            nullptr;
+    if (name != nullptr && setenv(variable, name, 1) == 0)
+      execv("/proc/self/exe", arguments); // if it cannot, all goes on as it was
+#else
+    static_cast<void>(arguments);
+#endif
   }
 
   /// A run without mpirun needs neither a daemon of Open MPI nor a network,
@@ -155,9 +184,9 @@ namespace
   void
   take_blas_buffer()
   {
-    const std::size_t n_threads =
-      openblas_get_num_threads != nullptr ? openblas_get_num_threads() : 1;
-    const std::size_t needed = (n_threads + 1) * blas_buffer;
+    const auto        number = of_openblas<int()>("openblas_get_num_threads");
+    const std::size_t n_threads = number != nullptr ? number() : 1;
+    const std::size_t needed    = (n_threads + 1) * blas_buffer;
     if (!has_room(needed))
       end_without_room(needed, environ);
     const int n      = 1;
@@ -170,8 +199,9 @@ namespace
 namespace mortise
 {
   void
-  prepare_process()
+  prepare_process(char *arguments[])
   {
+    use_kernels_of_processor(arguments);
     interruption::catch_signals();
     // a file that grows beyond a limit is an error of write(), which is
     // reported
