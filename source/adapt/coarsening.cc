@@ -1,5 +1,6 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/adapt/cell_changes.h>
 #include <mortise/adapt/coarsening.h>
 #include <mortise/adapt/error_by_residual.h>
 #include <mortise/adapt/error_estimate.h>

@@ -5,6 +5,7 @@
 // and that no rank is left without cells.
 #include <deal.II/base/mpi.h>
 
+#include <mortise/adapt/cell_changes.h>
 #include <mortise/adapt/cell_states.h>
 #include <mortise/adapt/refinement.h>
 #include <mortise/body/elements/simplex_quadrature.h>

@@ -1,7 +1,10 @@
 #!/usr/bin/env python3
 """sliding.py MORTISE: contact that follows the bodies beside the same bodies with pairs that stay and with a tie. Writes its part of
 doc/measurements/deformed_contact.md: iterations by step and seconds of a ball that is pushed in a cup, of a block that slides over another one,
-and of scenes with friction."""
+and of scenes with friction.
+sliding.py MORTISE --ironing N: prm/ironing.prm with 192,510 unknowns on two processes, which is pressed in four steps and drawn in N; prints seconds and iterations of a
+step that is drawn, and the memory of a process."""
+import json
 import math
 import os
 import re
@@ -134,6 +137,17 @@ def friction(mortise):
     return rows
 
 
+def ironing(mortise, n):
+    """On meshes three times as fine along the block and four cells wide; a step draws by half a cell."""
+    times = [0.25, 0.5, 0.75, 1.] + [1 + k / 80 for k in range(1, n + 1)]
+    code, summary, log = outcome(mortise, "ironing", "Body block/Mesh/Extent=0, 0, -1, 4, 0.5, 0", "Body block/Mesh/Subdivisions=96, 4, 14", "Body die/Mesh/Extent=0.3, 0.6, 0.5",
+                                 "Body die/Mesh/Subdivisions=36, 10, 4", "Body die/Mesh/Translate=1, 0.5, 0.6", "Steps/Step=" + ", ".join(f"{t:g}" for t in times), ranks=2)
+    ends = [float(seconds) for seconds in re.findall(r"% done in ([0-9.e+]+) s", log)]
+    drawn = [step["solver"]["newton_iterations"] for step in summary["steps"] if step["time"] > 1 + 1e-9]
+    print(f"exit code {code}, {last(summary)['dofs']['total']} unknowns, {len(drawn)} steps of {n}: {(ends[-1] - ends[3]) / len(drawn):.2f} s each, "
+          f"{sum(drawn) / len(drawn):.1f} iterations; {json.dumps(summary['memory_mib'])}")
+
+
 def main(mortise):
     text = ["### A ball in a cup", "", "An octant of a hollow ball (radii 0.5 and 1) is pushed by 0.05, 0.15 and 0.25 in four steps against a cup of the same neo-Hookean material (radii 1.02 and 1.5).", ""]
     text += balls(mortise) + ["", "### A block slides over another one", "", "`tests/field/block_slides_on_rubber.prm`: from t = 2 on, four lengths of the block, over 22 faces of the longer one, of which each is less than one of its own.", ""]
@@ -142,6 +156,9 @@ def main(mortise):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
+    if len(sys.argv) == 4 and sys.argv[2] == "--ironing":
+        ironing(os.path.abspath(sys.argv[1]), int(sys.argv[3]))
+    elif len(sys.argv) == 2:
+        main(os.path.abspath(sys.argv[1]))
+    else:
         sys.exit(__doc__)
-    main(os.path.abspath(sys.argv[1]))

@@ -1,5 +1,6 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/adapt/cell_changes.h>
 #include <mortise/adapt/coarsening.h>
 #include <mortise/body/mesh/gmsh_model.h>
 #include <mortise/operators/cells/cell_histories.h>

@@ -2,6 +2,7 @@
 // histories of their cells.
 #include <deal.II/base/mpi.h>
 
+#include <mortise/adapt/cell_changes.h>
 #include <mortise/base/error.h>
 #include <mortise/base/of_all_ranks.h>
 #include <mortise/base/quotes.h>
