@@ -2,7 +2,7 @@
 """sliding.py MORTISE: contact that follows the bodies beside the same bodies with pairs that stay and with a tie. Writes its part of
 doc/measurements/deformed_contact.md: iterations by step and seconds of a ball that is pushed in a cup, of a block that slides over another one,
 and of scenes with friction.
-sliding.py MORTISE --ironing N: prm/ironing.prm with 192,510 unknowns on two processes, which is pressed in four steps and drawn in N; prints seconds and iterations of a
+sliding.py MORTISE --ironing N: prm/ironing.prm with 194,190 unknowns on two processes, which is pressed in four steps and drawn in N; prints seconds and iterations of a
 step that is drawn, and the memory of a process."""
 import json
 import math
