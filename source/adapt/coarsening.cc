@@ -5,7 +5,6 @@
 #include <mortise/adapt/error_by_residual.h>
 #include <mortise/adapt/error_estimate.h>
 #include <mortise/adapt/largest_around.h>
-#include <mortise/body/elements/legendre_elements.h>
 
 #include <algorithm>
 #include <cmath>

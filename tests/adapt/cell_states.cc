@@ -67,6 +67,19 @@ namespace
     vector.update_ghost_values();
   }
 
+  std::vector<BodySolution>
+  any_solution(const Bodies &bodies)
+  {
+    const Body &body   = *bodies.front();
+    auto        result = zero_solutions(bodies);
+    fill(body.dof_handler, body.conformity, result[0].displacement);
+    if (body.pressure)
+      fill(body.pressure->dof_handler,
+           body.pressure->conformity,
+           result[0].pressure);
+    return result;
+  }
+
   double
   violation(const AffineConstraints<double> &conformity,
             const BodyVector                &vector)
@@ -116,14 +129,9 @@ namespace
     const std::string what = cells + (mixed ? ", mixed" : "");
     Bodies            bodies;
     bodies.push_back(make_body(cells, mixed));
-    Body &body     = *bodies.front();
-    auto  solution = zero_solutions(bodies);
-    fill(body.dof_handler, body.conformity, solution[0].displacement);
-    if (mixed)
-      fill(body.pressure->dof_handler,
-           body.pressure->conformity,
-           solution[0].pressure);
-    const auto before = integrals(bodies, solution);
+    Body      &body     = *bodies.front();
+    const auto solution = any_solution(bodies);
+    const auto before   = integrals(bodies, solution);
     CellStates states;
     set_coefficients(bodies, solution, states);
     std::vector<bool> split;
@@ -207,15 +215,10 @@ namespace
     const std::string what = mixed ? "undone, mixed" : "undone";
     Bodies            bodies;
     bodies.push_back(make_body("hexahedra", mixed));
-    Body &body     = *bodies.front();
-    auto  solution = zero_solutions(bodies);
-    fill(body.dof_handler, body.conformity, solution[0].displacement);
-    if (mixed)
-      fill(body.pressure->dof_handler,
-           body.pressure->conformity,
-           solution[0].pressure);
-    const auto before  = integrals(bodies, solution);
-    const auto n_cells = body.triangulation().n_global_active_cells();
+    Body      &body     = *bodies.front();
+    const auto solution = any_solution(bodies);
+    const auto before   = integrals(bodies, solution);
+    const auto n_cells  = body.triangulation().n_global_active_cells();
     CellStates states;
     set_coefficients(bodies, solution, states);
     for (CellState &state : states[0])
