@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 #include <numeric>
 #include <utility>
 
@@ -46,19 +45,29 @@ namespace mortise
     const double *values  = matrix.values.data();
     for (unsigned int i = 0; i < matrix.size(); ++i)
       {
-        std::map<int, double> row;
-        for (unsigned int k = 0; k < matrix.lengths[i]; ++k)
-          row[*columns++] += *values++;
-        const auto added = other.row(i);
+        const unsigned int length = matrix.lengths[i];
+        const auto         added  = other.row(i);
+        const std::size_t  first  = sum.columns.size();
+        sum.columns.insert(sum.columns.end(), columns, columns + length);
+        sum.values.insert(sum.values.end(), values, values + length);
+        columns += length;
+        values += length;
         for (unsigned int k = 0; k < added.length; ++k)
-          row[static_cast<int>(other.global_column(added.columns[k]))] +=
-            added.values[k];
-        sum.lengths.push_back(row.size());
-        for (const auto &[column, value] : row)
           {
-            sum.columns.push_back(column);
-            sum.values.push_back(value);
+            const int  column = other.global_column(added.columns[k]);
+            const auto at     = std::lower_bound(sum.columns.begin() + first,
+                                             sum.columns.end(),
+                                             column);
+            const auto place  = sum.values.begin() + (at - sum.columns.begin());
+            if (at != sum.columns.end() && *at == column)
+              *place += added.values[k];
+            else
+              {
+                sum.values.insert(place, added.values[k]);
+                sum.columns.insert(at, column);
+              }
           }
+        sum.lengths.push_back(sum.columns.size() - first);
       }
     matrix = std::move(sum);
   }
