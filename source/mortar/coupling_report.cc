@@ -28,7 +28,8 @@ namespace mortise
                  const unsigned int s,
                  const unsigned int i)
     {
-      return std::sqrt(multiplier_product(coupling.local[s], i, i)) *
+      // negative where the faces of an iterate fold
+      return std::sqrt(std::fabs(multiplier_product(coupling.local[s], i, i))) *
              coupling.interface->slave().faces[s].size;
     }
   } // namespace
