@@ -41,8 +41,7 @@ namespace mortise
     /// A step starts from an extrapolation that leaves less than this part of
     /// the residual of the last state: bodies that bend are stretched by it,
     /// and then an iteration of Newton's method from there is worse.
-    constexpr double       extrapolated_residual = 0.1;
-    constexpr unsigned int most_accepted         = 3;
+    constexpr double extrapolated_residual = 0.1;
   } // namespace
 
   NonlinearStep::NonlinearStep(const RunContext &run,
@@ -200,7 +199,8 @@ namespace mortise
         !follows() && (stays || reached <= attainable(x)))
       size = tolerance;
     // a body that is prescribed as a whole has no forces that could be left
-    if (rest.linfty_norm() > 0. || (is_first && contact != nullptr))
+    // and the laws of contact are those of the last solve
+    if (rest.linfty_norm() > 0. || (!asked_contact && contact != nullptr))
       size = std::max(size, 2. * tolerance);
     if (along == nullptr)
       size = std::max(size, preloads.lack(x));
@@ -245,29 +245,14 @@ namespace mortise
   void
   NonlinearStep::extrapolate(SystemVector &x)
   {
-    if (accepted.empty() || x.time > accepted.back().time)
-      accepted.push_back(x);
-    if (accepted.size() > most_accepted)
-      accepted.pop_front();
-    if (accepted.size() == 1)
+    accepted.add({x, {}});
+    if (accepted.n_states() == 1)
       return;
-    const double time     = data->at_time();
-    double       smallest = extrapolated_residual * residual(x);
-    for (unsigned int n = 2; n <= accepted.size(); ++n)
+    double smallest = extrapolated_residual * residual(x);
+    for (unsigned int n = 2; n <= accepted.n_states(); ++n)
       {
-        // the polynomial through the last n states
-        const auto   first = accepted.end() - n;
-        SystemVector ahead = discretisation.linear_system().zero_vector();
-        for (auto i = first; i != accepted.end(); ++i)
-          {
-            double factor = 1.;
-            for (auto j = first; j != accepted.end(); ++j)
-              if (j != i)
-                factor *= (time - j->time) / (i->time - j->time);
-            add_scaled(ahead, factor, *i);
-          }
-        ahead.time         = accepted.back().time;
-        const double there = residual(ahead);
+        const SystemVector ahead = accepted.at(data->at_time(), n).x;
+        const double       there = residual(ahead);
         if (there < smallest)
           {
             x             = ahead;
@@ -277,22 +262,28 @@ namespace mortise
       }
   }
 
+  void
+  NonlinearStep::begin_iterations()
+  {
+    reference = size = size_before = contraction = 0.;
+    stays = asked_contact = false;
+    at_last_state         = true;
+    linearised_at.reset();
+    why      = "Newton's method stagnates";
+    is_wrong = false;
+  }
+
   SolveReport
   NonlinearStep::iterate(const State &last, SystemVector &x)
   {
     const BlockSystem &system = discretisation.linear_system();
-    before    = last.history.empty() ? system.bulk->no_history() : last.history;
-    reference = size = size_before = contraction = 0.;
-    stays                                        = false;
-    at_last_state                                = true;
-    linearised_at.reset();
+    before = last.history.empty() ? system.bulk->no_history() : last.history;
+    begin_iterations();
     if (!norm)
       norm = std::make_unique<ScaledResidual>(system);
     if (along == nullptr && contact == nullptr && !follows())
       extrapolate(x);
-    why      = "Newton's method stagnates";
-    is_wrong = false;
-    newton   = follows() ? follow(last, x) : improve(most_newton_iterations, x);
+    newton = follows() ? follow(last, x) : improve(most_newton_iterations, x);
     if (!newton.converged)
       least_cost = 0.; // preconditioners are of a state that is left
 

@@ -2,16 +2,13 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
-#include <mortise/mortar/coupling.h>
 #include <mortise/problem/nonlinear_step.h>
-#include <mortise/solvers/anderson.h>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <map>
 #include <string>
+#include <utility>
 
 namespace mortise
 {
@@ -19,8 +16,9 @@ namespace mortise
 
   namespace
   {
-    constexpr unsigned int most_pairings = 60, most_useless = 20,
-                           few_pairings = 10, most_without_set = 2;
+    constexpr unsigned int most_pairings = 60, few_useless = 5,
+                           most_useless = 20, few_pairings = 10,
+                           most_without_set = 2;
 
     /// Residuals below these that do not fall by half, the smaller in one
     /// iteration and the larger in so many, are what numbers of points of
@@ -28,8 +26,14 @@ namespace mortise
     constexpr double       rounding_of_pairs = 1e-7, most_rounding = 1e-6;
     constexpr unsigned int most_of_rounding = 3;
 
-    /// Of residuals from one iteration to the next.
-    constexpr double slow_contraction = 0.1;
+    /// Of residuals, from one iteration to the next: slow, and slow where it
+    /// falls by less than the factor.
+    constexpr double slow_contraction = 0.1, slow_if_it_stays = 0.02,
+                     least_fall = 0.5;
+
+    /// A step starts from an extrapolation that leaves less than this part of
+    /// the residual of the last state.
+    constexpr double ahead_residual = 0.5;
 
     bool
     are_equal(const Vector &a, const Vector &b, const MPI_Comm comm)
@@ -37,143 +41,6 @@ namespace mortise
       const bool same =
         a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
       return Utilities::MPI::min(same ? 1 : 0, comm) == 1;
-    }
-
-    /// By name of an interface: multiplier_coefficients(), in axes that follow
-    /// the bodies if there is friction.
-    using ByFace = std::map<std::string, std::vector<std::vector<double>>>;
-
-    /// The normal of a node and two tangents that move with the face.
-    Frame
-    axes(const Coupling &coupling, const unsigned int s, const unsigned int k)
-    {
-      Tensor<1, dim> n(coupling.frames[s][k][0]),
-        t(coupling.interface->slave().faces[s].frame.tangent[0]);
-      t -= (t * n) * n;
-      Frame result;
-      result[0] = n;
-      result[1] = t / t.norm();
-      result[2] = cross_product_3d(n, Tensor<1, dim>(result[1]));
-      return result;
-    }
-
-    /// Of tractions with friction, by slave face, in the axes of nodes, or from
-    /// these in space.
-    std::vector<std::vector<double>>
-    in_axes(const Coupling                  &coupling,
-            std::vector<std::vector<double>> coefficients,
-            const bool                       to_space)
-    {
-      if (!coupling.has_following_friction())
-        return coefficients;
-      for (unsigned int s = 0; s < coefficients.size(); ++s)
-        {
-          const unsigned int n = coupling.frames[s].size();
-          for (unsigned int k = 0; k < n; ++k)
-            {
-              const Frame    Q = axes(coupling, s, k);
-              Tensor<1, dim> value;
-              for (unsigned int c = 0; c < dim; ++c)
-                value[c] = coefficients[s][c * n + k];
-              value = to_space ? transpose(Q) * value : Q * value;
-              for (unsigned int c = 0; c < dim; ++c)
-                coefficients[s][c * n + k] = value[c];
-            }
-        }
-      return coefficients;
-    }
-
-    ByFace
-    by_face(const Pairing &pairing,
-            const Vector  &multiplier,
-            const MPI_Comm comm)
-    {
-      ByFace result;
-      for (const Coupling &coupling : pairing.all())
-        result[coupling.interface->name()] =
-          in_axes(coupling,
-                  multiplier_coefficients(coupling, multiplier, comm),
-                  false);
-      return result;
-    }
-
-    /// Anderson's acceleration of iterations that contract slowly, since the
-    /// tangent lacks terms: of friction, and where sides are apart.
-    class Acceleration
-    {
-    public:
-      /// @p weights: of the squares of displacements.
-      explicit Acceleration(const Vector &weights)
-        : weights(weights)
-      {}
-
-      /// An iteration led from the displacement @p given to @p result with
-      /// @p multipliers. Collective.
-      void
-      add(const Vector       &given,
-          const SystemVector &result,
-          const ByFace       &multipliers)
-      {
-        Step step{result, multipliers, result.displacement};
-        step.way -= given;
-        steps.push_back(std::move(step));
-        if (steps.size() > most_steps)
-          steps.pop_front();
-      }
-
-      /// The next iterate, the last result before. Collective.
-      void
-      apply(SystemVector &x, ByFace &multipliers) const
-      {
-        const unsigned int n = steps.size();
-        FullMatrix<double> products(n, n);
-        for (unsigned int a = 0; a < n; ++a)
-          {
-            Vector scaled = steps[a].way;
-            scaled.scale(weights);
-            for (unsigned int b = a; b < n; ++b)
-              products(a, b) = products(b, a) = scaled * steps[b].way;
-          }
-        const std::vector<double> factors = anderson_weights(products);
-        for (unsigned int a = 0; a < n; ++a)
-          {
-            const double factor = factors[a] - (a + 1 == n ? 1. : 0.);
-            x.displacement.add(factor, steps[a].result.displacement);
-            if (x.pressure.size() > 0)
-              x.pressure.add(factor, steps[a].result.pressure);
-            for (const auto &[name, of_faces] : steps[a].multipliers)
-              if (const auto found = multipliers.find(name);
-                  found != multipliers.end())
-                for (unsigned int s = 0; s < of_faces.size(); ++s)
-                  for (unsigned int i = 0; i < of_faces[s].size(); ++i)
-                    found->second[s][i] += factor * of_faces[s][i];
-          }
-      }
-
-    private:
-      static constexpr unsigned int most_steps = 4;
-
-      struct Step
-      {
-        SystemVector result;
-        ByFace       multipliers;
-        Vector       way;
-      };
-
-      const Vector    &weights;
-      std::deque<Step> steps;
-    };
-
-    /// Those of patches that met no master before stay as they are.
-    void
-    take(const ByFace &known, const Pairing &pairing, Vector &multiplier)
-    {
-      for (const Coupling &coupling : pairing.all())
-        if (const auto found = known.find(coupling.interface->name());
-            found != known.end())
-          set_multiplier(coupling,
-                         in_axes(coupling, found->second, true),
-                         multiplier);
     }
   } // namespace
 
@@ -223,8 +90,115 @@ namespace mortise
                     free_part(x));
   }
 
+  void
+  NonlinearStep::begin_contact_of(const State        &last,
+                                  const SlipOrigin   &origin,
+                                  const SystemVector &x)
+  {
+    if (contact != nullptr)
+      begin_contact(last.contact);
+    if (last.displacement.size() > 0 && last.contact)
+      go_on(*last.contact, last, origin, x);
+  }
+
+  Iterate
+  NonlinearStep::without_pairs(const SystemVector &x) const
+  {
+    Iterate result{x,
+                   multipliers_by_face(discretisation.interfaces(),
+                                       x.multiplier,
+                                       run.comm)};
+    result.x.multiplier.reinit(0);
+    return result;
+  }
+
+  std::optional<ContactRecords>
+  NonlinearStep::records(const SystemVector &x) const
+  {
+    std::optional<ContactRecords> result;
+    if (contact != nullptr)
+      result = contact->records_of_iterate(*load, free_part(x));
+    return result;
+  }
+
+  void
+  NonlinearStep::pair_again(const Iterate                       &given,
+                            const std::optional<ContactRecords> &reached,
+                            const State                         &last,
+                            const SlipOrigin                    &origin,
+                            SystemVector                        &x)
+  {
+    x = given.x;
+    pair_at(x.displacement);
+    x.multiplier.reinit(
+      discretisation.linear_system().zero_vector().multiplier);
+    set_multipliers(given.multipliers,
+                    discretisation.interfaces(),
+                    x.multiplier);
+    if (reached)
+      go_on(*reached, last, origin, x);
+    else if (linearised_at)
+      solver.update_interfaces();
+  }
+
+  bool
+  NonlinearStep::extrapolate_pairs(const State      &last,
+                                   const SlipOrigin &origin,
+                                   SystemVector     &x)
+  {
+    accepted.add(without_pairs(x));
+    if (accepted.n_states() < 2 || (contact != nullptr && !last.contact))
+      return false;
+    const Iterate ahead = accepted.at(data->at_time(), 2);
+    if (rest_of_prescribed(ahead.x).l2_norm() >
+        ahead_residual * rest_of_prescribed(x).l2_norm())
+      return false;
+    const double       largest = ahead_residual * residual(x);
+    const SystemVector start   = x;
+    try
+      {
+        // statuses are those at the end of the last step
+        pair_again(ahead,
+                   contact != nullptr ? last.contact : std::nullopt,
+                   last,
+                   origin,
+                   x);
+        if (residual(x) < largest)
+          return true;
+      }
+    catch (const InputError &)
+      {}
+    x = start;
+    pair_at(x.displacement);
+    begin_contact_of(last, origin, x);
+    return false;
+  }
+
   NewtonReport
   NonlinearStep::follow(const State &last, SystemVector &x)
+  {
+    const SystemVector start = x;
+    allow_force_stiffness();
+    is_ahead            = true;
+    NewtonReport report = improve_with_pairs(last, x);
+    const auto   again  = [&](const std::string &how) {
+      run.log.line("    again " + how);
+      x = start;
+      begin_iterations();
+      const unsigned int tried = report.linear_iterations;
+      report                   = improve_with_pairs(last, x);
+      report.linear_iterations += tried;
+      report.easy = false;
+    };
+    if (!report.converged && std::exchange(is_ahead, false))
+      again("from the last state");
+    if (!report.converged && std::exchange(has_force_stiffness, false))
+      again("without the stiffness of contact forces");
+    return report;
+  }
+
+  NewtonReport
+  NonlinearStep::improve_with_pairs(const State &last, SystemVector &x)
   {
     const auto zero = [this] {
       return discretisation.linear_system().zero_vector().multiplier;
@@ -235,21 +209,21 @@ namespace mortise
         pair_at(x.displacement);
         // those of the last state belong to this pairing
         if (x.multiplier.size() != zero().size())
-          x.multiplier = zero();
+          x.multiplier.reinit(zero());
       }
     const SlipOrigin origin(discretisation.interfaces().all(),
                             discretisation.linear_system().owned_displacement,
                             discretisation.displacement_of_pairing(),
                             run.comm);
-    if (contact != nullptr)
-      begin_contact(last.contact);
-    if (last.displacement.size() > 0 && last.contact)
-      go_on(*last.contact, last, origin, x);
+    begin_contact_of(last, origin, x);
+    is_ahead = is_ahead && extrapolate_pairs(last, origin, x);
     Acceleration acceleration(discretisation.linear_system().bulk->diagonal());
-    double       best  = std::numeric_limits<double>::infinity();
+    double       best         = std::numeric_limits<double>::infinity(),
+           contraction_before = 1.;
     unsigned int rises = 0, n_without_set = 0;
     NewtonReport all;
-    while (all.iterations < most_pairings && rises < most_useless)
+    while (all.iterations < most_pairings &&
+           rises < (has_force_stiffness ? few_useless : most_useless))
       {
         const Vector       given = x.displacement;
         const NewtonReport one   = improve(1, x);
@@ -265,36 +239,35 @@ namespace mortise
             all.converged = one.converged && n_without_set == 0;
             break;
           }
-        auto known =
-          by_face(discretisation.interfaces(), x.multiplier, run.comm);
-        std::optional<ContactRecords> reached;
-        if (contact != nullptr)
-          reached = contact->records_of_iterate(*load, free_part(x));
-        acceleration.add(given, x, known);
-        if (contraction > slow_contraction)
+        Iterate    reached = without_pairs(x);
+        const auto known   = records(x);
+        acceleration.add(given, reached);
+        if (contraction > slow_contraction ||
+            (contraction > slow_if_it_stays &&
+             contraction > least_fall * contraction_before))
           {
-            acceleration.apply(x, known);
-            set_prescribed(x);
+            Iterate accelerated = acceleration.next();
+            set_prescribed(accelerated.x);
+            accelerated.x.multiplier.reinit(x.multiplier);
+            // where no cell inverts
+            if (std::isfinite(residual(accelerated.x)))
+              reached = std::move(accelerated);
           }
         try
           {
-            pair_at(x.displacement);
+            pair_again(reached, known, last, origin, x);
           }
         catch (const InputError &error)
           {
-            why          = error.what();
-            is_wrong     = true;
+            why      = error.what();
+            is_wrong = true;
+            x.multiplier.reinit(zero());
             all.residual = std::numeric_limits<double>::infinity();
             break;
           }
-        x.multiplier = zero();
-        take(known, discretisation.interfaces(), x.multiplier);
-        if (reached)
-          go_on(*reached, last, origin, x);
-        else
-          solver.update_interfaces();
         const double before_that = all.residual;
         all.residual             = residual(x);
+        contraction_before       = contraction > 0. ? contraction : 1.;
         if (all.iterations > 0)
           contraction = all.residual / before_that;
         print(++all.iterations, all.residual);

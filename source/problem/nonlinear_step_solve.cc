@@ -13,7 +13,7 @@ namespace mortise
     constexpr double loosest_solve = 0.01;
 
     /// Of the first problem of contact that follows the bodies.
-    constexpr double first_contact = 1e-4;
+    constexpr double first_contact = 1e-3;
 
     /// Nodes begin to slip and to stick where the solution is less exact.
     constexpr double loosest_of_friction = 1e-3;
@@ -40,8 +40,7 @@ namespace mortise
     discretisation.linearise(
       x, linearised_at ? &*linearised_at : nullptr, before, *load, refresh);
     linearised_at = x;
-    // the matrix that is factorised does not have it
-    if (follows() && discretisation.choice().method != SolverMethod::direct)
+    if (follows() && has_force_stiffness)
       discretisation.add_force_stiffness(x.multiplier);
     preloads.system_changed();
     if (!refresh)
@@ -59,6 +58,14 @@ namespace mortise
   }
 
   void
+  NonlinearStep::allow_force_stiffness()
+  {
+    // the matrix that is factorised does not have it
+    has_force_stiffness =
+      discretisation.choice().method != SolverMethod::direct;
+  }
+
+  void
   NonlinearStep::show_without_stress()
   {
     discretisation.show_tangent(false);
@@ -71,6 +78,7 @@ namespace mortise
     SystemVector x = state.solution;
     x.displacement = state.displacement;
     linearised_at.reset();
+    allow_force_stiffness();
     linearise(x);
     solver.set_limits(run.parameters.solver.tolerance,
                       SolverOptions().energy_fraction,
@@ -134,6 +142,7 @@ namespace mortise
     for (const unsigned int i : hanging)
       x.displacement.local_element(i) = 0.;
     load->rhs.multiplier = linear.rhs.multiplier; // with its shortenings
+    asked_contact        = true;
     last_iterations      = contact->linear_iterations();
     stays                = report.converged && last_iterations == 0;
     least_cost           = 0.; // preconditioners see each state

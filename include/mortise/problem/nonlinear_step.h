@@ -4,6 +4,7 @@
 // tangent, since cells beside boundaries that move alone would invert.
 #pragma once
 
+#include <mortise/problem/acceleration.h>
 #include <mortise/problem/arc_length.h>
 #include <mortise/problem/contact/contact_step.h>
 #include <mortise/problem/input/run_context.h>
@@ -13,7 +14,6 @@
 #include <mortise/solvers/newton.h>
 #include <mortise/solvers/scaled_residual.h>
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -118,6 +118,8 @@ namespace mortise
     /// The same forces as in solve_bordered(), per time.
     SystemVector
     rate_of_forces(const SystemVector &x);
+    void
+    allow_force_stiffness();
     /// Where the tangent with its initial stress has no preconditioner.
     void
     show_without_stress();
@@ -138,9 +140,17 @@ namespace mortise
     {
       return discretisation.interfaces().follow();
     }
-    /// Iterations of which each has the pairs of the bodies at its start.
+    void
+    begin_iterations();
+    /// improve_with_pairs(); where it does not converge again from the last
+    /// state, and then without the stiffness of contact forces: where edges
+    /// press into the other side this is not positive, and iterations without
+    /// it end that go astray with it.
     NewtonReport
     follow(const State &last, SystemVector &x);
+    /// Iterations of which each has the pairs of the bodies at its start.
+    NewtonReport
+    improve_with_pairs(const State &last, SystemVector &x);
     /// Pair the bodies where they are at @p displacement. Collective.
     void
     pair_at(const Vector &displacement);
@@ -154,6 +164,25 @@ namespace mortise
           const State          &last,
           const SlipOrigin     &origin,
           const SystemVector   &x);
+    /// The same at the state @p x = @p last.
+    void
+    begin_contact_of(const State        &last,
+                     const SlipOrigin   &origin,
+                     const SystemVector &x);
+    /// Let @p x be @p given, with pairs there; @p reached: records of contact with
+    /// the pairs before, or none. Collective; throws InputError where bodies
+    /// cannot be paired.
+    void
+    pair_again(const Iterate                       &given,
+               const std::optional<ContactRecords> &reached,
+               const State                         &last,
+               const SlipOrigin                    &origin,
+               SystemVector                        &x);
+    /// With the present pairs. Collective.
+    Iterate
+    without_pairs(const SystemVector &x) const;
+    std::optional<ContactRecords>
+    records(const SystemVector &x) const;
     /// Without prescribed displacements.
     SystemVector
     free_part(const SystemVector &x) const;
@@ -166,6 +195,12 @@ namespace mortise
     /// leaves a much smaller residual.
     void
     extrapolate(SystemVector &x);
+    /// The same with the pairs of where @p x goes on to; false where it stays.
+    /// @p origin: as go_on().
+    bool
+    extrapolate_pairs(const State      &last,
+                      const SlipOrigin &origin,
+                      SystemVector     &x);
     /// Set the response to @p x and r without what prescribed displacements
     /// lack; false if a cell inverts.
     bool
@@ -209,7 +244,7 @@ namespace mortise
     std::vector<unsigned int>       prescribed, hanging;
     std::unique_ptr<ScaledResidual> norm;
     std::optional<ArcLength>        arc;      ///< with arc-length control
-    std::deque<SystemVector>        accepted; ///< the last states
+    Extrapolation                   accepted; ///< the last states
 
     // of the present step
     SceneLoad                    *load     = nullptr;
@@ -223,9 +258,12 @@ namespace mortise
     std::optional<SystemVector> linearised_at; ///< of this step, or nothing yet
     double                      reference = 0.; ///< size of forces
     double       size = 0., size_before = 0.;   ///< of iterates' residuals
-    double       contraction  = 0.;    ///< of the last iteration; 0: none yet
-    double       time_of_load = 0.;    ///< with arc-length control
-    bool         balanced     = false; ///< the iterate, but for its distance
+    bool         is_ahead            = false; ///< the start, of the last state
+    bool         has_force_stiffness = true;  ///< the tangent, of contact
+    double       contraction   = 0.;    ///< of the last iteration; 0: none yet
+    double       time_of_load  = 0.;    ///< with arc-length control
+    bool         balanced      = false; ///< the iterate, but for its distance
+    bool         asked_contact = false; ///< for its laws, in this step
     bool         stays = false; ///< linear solves do not improve the iterate
     unsigned int last_iterations = 0;
     /// Iterations of linear solves per digit: of the last, and the least since
