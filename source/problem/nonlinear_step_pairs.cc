@@ -26,10 +26,8 @@ namespace mortise
     constexpr double       rounding_of_pairs = 1e-7, most_rounding = 1e-6;
     constexpr unsigned int most_of_rounding = 3;
 
-    /// Of residuals, from one iteration to the next: slow, and slow where it
-    /// falls by less than the factor.
-    constexpr double slow_contraction = 0.1, slow_if_it_stays = 0.02,
-                     least_fall = 0.5;
+    /// Of residuals from one iteration to the next.
+    constexpr double slow_contraction = 0.1;
 
     /// A step starts from an extrapolation that leaves less than this part of
     /// the residual of the last state.
@@ -218,8 +216,7 @@ namespace mortise
     begin_contact_of(last, origin, x);
     is_ahead = is_ahead && extrapolate_pairs(last, origin, x);
     Acceleration acceleration(discretisation.linear_system().bulk->diagonal());
-    double       best         = std::numeric_limits<double>::infinity(),
-           contraction_before = 1.;
+    double       best  = std::numeric_limits<double>::infinity();
     unsigned int rises = 0, n_without_set = 0;
     NewtonReport all;
     while (all.iterations < most_pairings &&
@@ -242,9 +239,7 @@ namespace mortise
         Iterate    reached = without_pairs(x);
         const auto known   = records(x);
         acceleration.add(given, reached);
-        if (contraction > slow_contraction ||
-            (contraction > slow_if_it_stays &&
-             contraction > least_fall * contraction_before))
+        if (contraction > slow_contraction)
           {
             Iterate accelerated = acceleration.next();
             set_prescribed(accelerated.x);
@@ -267,7 +262,6 @@ namespace mortise
           }
         const double before_that = all.residual;
         all.residual             = residual(x);
-        contraction_before       = contraction > 0. ? contraction : 1.;
         if (all.iterations > 0)
           contraction = all.residual / before_that;
         print(++all.iterations, all.residual);
