@@ -54,17 +54,16 @@ namespace mortise
         values += length;
         for (unsigned int k = 0; k < added.length; ++k)
           {
+            // columns of other ranks may stand in front of lower ones
             const int  column = other.global_column(added.columns[k]);
-            const auto at     = std::lower_bound(sum.columns.begin() + first,
-                                             sum.columns.end(),
-                                             column);
-            const auto place  = sum.values.begin() + (at - sum.columns.begin());
-            if (at != sum.columns.end() && *at == column)
-              *place += added.values[k];
+            const auto at =
+              std::find(sum.columns.begin() + first, sum.columns.end(), column);
+            if (at != sum.columns.end())
+              sum.values[at - sum.columns.begin()] += added.values[k];
             else
               {
-                sum.values.insert(place, added.values[k]);
-                sum.columns.insert(at, column);
+                sum.columns.push_back(column);
+                sum.values.push_back(added.values[k]);
               }
           }
         sum.lengths.push_back(sum.columns.size() - first);
