@@ -1,11 +1,13 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
 
+#include <mortise/base/error.h>
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/interface/body_surface.h>
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 namespace mortise
 {
@@ -77,6 +79,28 @@ namespace mortise
     }
   } // namespace
 
+  namespace
+  {
+    /// Throws InputError on all ranks where a face of one cannot be finalized.
+    /// Collective.
+    void
+    finalize(std::vector<SurfaceFace> &faces, const Body &body)
+    {
+      std::string wrong;
+      for (SurfaceFace &face : faces)
+        try
+          {
+            face.finalize();
+          }
+        catch (const InputError &error)
+          {
+            wrong = error.what();
+            break;
+          }
+      throw_if_any(wrong, body.triangulation().get_communicator());
+    }
+  } // namespace
+
   SurfaceFace
   face_geometry(const Body         &body,
                 const BoundaryFace &at,
@@ -126,10 +150,8 @@ namespace mortise
       if (cell->is_locally_owned() && cell->at_boundary())
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())
-            {
-              result.push_back(face_geometry(body, {cell, f}, displacement));
-              result.back().finalize();
-            }
+            result.push_back(face_geometry(body, {cell, f}, displacement));
+    finalize(result, body);
     return result;
   }
 
@@ -198,10 +220,10 @@ namespace mortise
           for (const auto &level : levels)
             surface.traces.back().nodes.push_back(level->face_nodes(
               body, surface.cells[local], surface.face_numbers[local]));
-          faces[i].finalize();
           faces[i].payload = Utilities::pack(surface.traces.back(), false);
           surface.faces.push_back(std::move(faces[i]));
         }
+    finalize(surface.faces, body);
     return surface;
   }
 

@@ -96,7 +96,7 @@ namespace mortise
                 Displacement        displacement = nullptr);
 
   /// The owned faces of the whole boundary, finalized, with normals of their
-  /// own.
+  /// own. Collective; throws InputError where a face has no area.
   std::vector<SurfaceFace>
   whole_boundary(const Body &body, Displacement displacement = nullptr);
 
@@ -108,6 +108,7 @@ namespace mortise
   /// The surface that consists of @p faces, which include those of ghost cells.
   /// Vertex normals are averaged over all faces among them around the vertex.
   /// @p constraints are those of the scene; @p levels fill the traces' nodes.
+  /// Collective; throws InputError where a face has no area.
   BodySurface
   extract_surface(const Body                              &body,
                   const std::vector<BoundaryFace>         &faces,
