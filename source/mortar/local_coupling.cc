@@ -156,10 +156,6 @@ namespace mortise
         }
     }
 
-    /// Of normals of both sides: faces that are at right angles, as iterates
-    /// may have them, say nothing about the distance.
-    constexpr double least_cosine_of_sides = 0.1;
-
     /// d of LocalCoupling at points @p first, ..., by component.
     std::array<std::vector<double>, dim>
     directions(const SurfaceFace       &slave,
@@ -177,11 +173,8 @@ namespace mortise
           const Tensor<1, dim> nu =
             -face_normal(master,
                          {points.master_eta[0][q], points.master_eta[1][q]});
-          const double length = along.norm(), along_nu = along * nu;
-          const bool   faces = along_nu > least_cosine_of_sides * length;
           for (unsigned int c = 0; c < dim; ++c)
-            result[c].push_back(faces ? length * nu[c] / along_nu :
-                                        along[c] / length);
+            result[c].push_back(along.norm() * nu[c] / (along * nu));
         }
       return result;
     }

@@ -29,8 +29,6 @@ namespace mortise
         square +=
           sample.area * sample.point.distance_square(result.centre) / area;
       result.size = std::sqrt(Utilities::MPI::sum(square, comm));
-      if (result.size == 0.)
-        result.size = 1.; // one place, which no rotation about it moves
       return result;
     }
 
