@@ -59,8 +59,7 @@ namespace mortise
         const SolveReport  before = report.linear;
         report.linear             = problem.solve(x);
         report.linear_iterations += report.linear.iterations;
-        report.linear.setup_seconds += before.setup_seconds;
-        report.linear.solve_seconds += before.solve_seconds;
+        report.linear.add_seconds(before);
         if (!report.linear.converged)
           {
             if (searches)

@@ -21,5 +21,12 @@ namespace mortise
     bool prepared = true; ///< was the set-up of the preconditioner successful?
     double setup_seconds = 0.; ///< since the last report
     double solve_seconds = 0.;
+
+    void
+    add_seconds(const SolveReport &other)
+    {
+      setup_seconds += other.setup_seconds;
+      solve_seconds += other.solve_seconds;
+    }
   };
 } // namespace mortise

@@ -65,8 +65,7 @@ namespace mortise
         iterations_when_shown =
           std::max(iterations_when_shown, result.iterations);
         result.iterations += tried.iterations;
-        result.setup_seconds += tried.setup_seconds;
-        result.solve_seconds += tried.solve_seconds;
+        result.add_seconds(tried);
       }
     iterations = result.iterations;
     return result;

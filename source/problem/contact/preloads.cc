@@ -163,8 +163,7 @@ namespace mortise
                                       solver.solve_from(unit.rhs, unit.x) :
                                       solver.solve(unit.rhs, unit.x);
         report.iterations += of_unit.iterations;
-        report.setup_seconds += of_unit.setup_seconds;
-        report.solve_seconds += of_unit.solve_seconds;
+        report.add_seconds(of_unit);
         report.converged = report.converged && of_unit.converged;
       }
     active     = now;
