@@ -93,10 +93,10 @@ namespace mortise
                                   const SlipOrigin   &origin,
                                   const SystemVector &x)
   {
-    if (contact != nullptr)
-      begin_contact(last.contact);
     if (last.displacement.size() > 0 && last.contact)
       go_on(*last.contact, last, origin, x);
+    else if (contact != nullptr)
+      begin_contact(last.contact);
   }
 
   Iterate
@@ -139,37 +139,32 @@ namespace mortise
       solver.update_interfaces();
   }
 
-  bool
+  void
   NonlinearStep::extrapolate_pairs(const State      &last,
                                    const SlipOrigin &origin,
                                    SystemVector     &x)
   {
     accepted.add(without_pairs(x));
     if (accepted.n_states() < 2 || (contact != nullptr && !last.contact))
-      return false;
+      return;
     const Iterate ahead = accepted.at(data->at_time(), 2);
     if (rest_of_prescribed(ahead.x).l2_norm() >
         ahead_residual * rest_of_prescribed(x).l2_norm())
-      return false;
+      return;
     const double       largest = ahead_residual * residual(x);
     const SystemVector start   = x;
     try
       {
         // statuses are those at the end of the last step
-        pair_again(ahead,
-                   contact != nullptr ? last.contact : std::nullopt,
-                   last,
-                   origin,
-                   x);
-        if (residual(x) < largest)
-          return true;
+        pair_again(ahead, last.contact, last, origin, x);
+        at_last_state = !(residual(x) < largest);
       }
     catch (const InputError &)
       {}
+    if (!at_last_state)
+      return;
     x = start;
     pair_at(x.displacement);
-    begin_contact_of(last, origin, x);
-    return false;
   }
 
   NewtonReport
@@ -177,18 +172,18 @@ namespace mortise
   {
     const SystemVector start = x;
     allow_force_stiffness();
-    is_ahead            = true;
-    NewtonReport report = improve_with_pairs(last, x);
+    NewtonReport report = improve_with_pairs(last, true, x);
     const auto   again  = [&](const std::string &how) {
       run.log.line("    again " + how);
       x = start;
       begin_iterations();
-      const unsigned int tried = report.linear_iterations;
-      report                   = improve_with_pairs(last, x);
-      report.linear_iterations += tried;
+      const NewtonReport tried = report;
+      report                   = improve_with_pairs(last, false, x);
+      report.linear_iterations += tried.linear_iterations;
+      report.linear.add_seconds(tried.linear);
       report.easy = false;
     };
-    if (!report.converged && std::exchange(is_ahead, false))
+    if (!report.converged && !at_last_state)
       again("from the last state");
     if (!report.converged && std::exchange(has_force_stiffness, false))
       again("without the stiffness of contact forces");
@@ -196,7 +191,9 @@ namespace mortise
   }
 
   NewtonReport
-  NonlinearStep::improve_with_pairs(const State &last, SystemVector &x)
+  NonlinearStep::improve_with_pairs(const State  &last,
+                                    const bool    extrapolates,
+                                    SystemVector &x)
   {
     const auto zero = [this] {
       return discretisation.linear_system().zero_vector().multiplier;
@@ -213,8 +210,10 @@ namespace mortise
                             discretisation.linear_system().owned_displacement,
                             discretisation.displacement_of_pairing(),
                             run.comm);
-    begin_contact_of(last, origin, x);
-    is_ahead = is_ahead && extrapolate_pairs(last, origin, x);
+    if (extrapolates)
+      extrapolate_pairs(last, origin, x);
+    if (at_last_state)
+      begin_contact_of(last, origin, x);
     Acceleration acceleration(discretisation.linear_system().bulk->diagonal());
     double       best  = std::numeric_limits<double>::infinity();
     unsigned int rises = 0, n_without_set = 0;
@@ -228,8 +227,7 @@ namespace mortise
         all.linear_iterations += one.linear_iterations;
         const SolveReport before = all.linear;
         all.linear               = one.linear;
-        all.linear.setup_seconds += before.setup_seconds;
-        all.linear.solve_seconds += before.solve_seconds;
+        all.linear.add_seconds(before);
         if (one.iterations == 0)
           {
             all.residual  = one.residual;
@@ -245,7 +243,7 @@ namespace mortise
             set_prescribed(accelerated.x);
             accelerated.x.multiplier.reinit(x.multiplier);
             // where no cell inverts
-            if (std::isfinite(residual(accelerated.x)))
+            if (balance(accelerated.x))
               reached = std::move(accelerated);
           }
         try

@@ -142,7 +142,6 @@ namespace mortise
     for (const unsigned int i : hanging)
       x.displacement.local_element(i) = 0.;
     load->rhs.multiplier = linear.rhs.multiplier; // with its shortenings
-    asked_contact        = true;
     last_iterations      = contact->linear_iterations();
     stays                = report.converged && last_iterations == 0;
     least_cost           = 0.; // preconditioners see each state

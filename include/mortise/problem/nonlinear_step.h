@@ -148,9 +148,11 @@ namespace mortise
     /// it end that go astray with it.
     NewtonReport
     follow(const State &last, SystemVector &x);
-    /// Iterations of which each has the pairs of the bodies at its start.
+    /// Iterations of which each has the pairs of the bodies at its start, that
+    /// of
+    /// the first where the last states lead if @p extrapolates.
     NewtonReport
-    improve_with_pairs(const State &last, SystemVector &x);
+    improve_with_pairs(const State &last, bool extrapolates, SystemVector &x);
     /// Pair the bodies where they are at @p displacement. Collective.
     void
     pair_at(const Vector &displacement);
@@ -164,7 +166,7 @@ namespace mortise
           const State          &last,
           const SlipOrigin     &origin,
           const SystemVector   &x);
-    /// The same at the state @p x = @p last.
+    /// The same at the state @p x = @p last, which contact need not have seen.
     void
     begin_contact_of(const State        &last,
                      const SlipOrigin   &origin,
@@ -195,9 +197,8 @@ namespace mortise
     /// leaves a much smaller residual.
     void
     extrapolate(SystemVector &x);
-    /// The same with the pairs of where @p x goes on to; false where it stays.
-    /// @p origin: as go_on().
-    bool
+    /// The same with the pairs of where @p x goes on to. @p origin: as go_on().
+    void
     extrapolate_pairs(const State      &last,
                       const SlipOrigin &origin,
                       SystemVector     &x);
@@ -258,12 +259,10 @@ namespace mortise
     std::optional<SystemVector> linearised_at; ///< of this step, or nothing yet
     double                      reference = 0.; ///< size of forces
     double       size = 0., size_before = 0.;   ///< of iterates' residuals
-    bool         is_ahead            = false; ///< the start, of the last state
-    bool         has_force_stiffness = true;  ///< the tangent, of contact
-    double       contraction   = 0.;    ///< of the last iteration; 0: none yet
-    double       time_of_load  = 0.;    ///< with arc-length control
-    bool         balanced      = false; ///< the iterate, but for its distance
-    bool         asked_contact = false; ///< for its laws, in this step
+    bool         has_force_stiffness = true;    ///< the tangent, of contact
+    double       contraction  = 0.;    ///< of the last iteration; 0: none yet
+    double       time_of_load = 0.;    ///< with arc-length control
+    bool         balanced     = false; ///< the iterate, but for its distance
     bool         stays = false; ///< linear solves do not improve the iterate
     unsigned int last_iterations = 0;
     /// Iterations of linear solves per digit: of the last, and the least since
