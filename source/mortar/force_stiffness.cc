@@ -141,9 +141,15 @@ namespace mortise
         for (auto &of_direction : slopes)
           of_direction = NodalColumns(master).in_columns(of_direction);
         const unsigned int n_f = n_s + n_m, n = dim * n_f;
-        // V_1, V_2, T_1, T_2 at each point, and what each is multiplied with
-        FullMatrix<double> rows(4 * n_q, n), others(4 * n_q, n), result(n, n);
-        std::vector<Geometry> geometry;
+        // T_a and f (V_a + k_ab T_b / 2) at each point; with the traction
+        // across the normal what is multiplied with T_a and with the normal
+        // motion, too
+        FullMatrix<double> T(2 * n_q, n), others(2 * n_q, n), result(n, n);
+        const bool         has_friction = !tractions.across.empty();
+        FullMatrix<double> left(has_friction ? 3 * n_q : 0, n), right(left);
+        std::array<std::vector<double>, 2> of_normal; // V_a + k_ab T_b
+        for (auto &row : of_normal)
+          row.resize(n);
         for (unsigned int q = 0; q < n_q; ++q)
           {
             const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]);
@@ -163,96 +169,70 @@ namespace mortise
             // points move along the slave's normal
             for (Tensor<1, dim> &dual : at.dual)
               dual -= (dual * normal) / (at.nu * normal) * at.nu;
-            geometry.push_back(at);
             for (unsigned int a = 0; a < 2; ++a)
               for (unsigned int c = 0; c < dim; ++c)
                 {
                   for (unsigned int k = 0; k < n_s; ++k)
-                    rows(4 * q + 2 + a, c * n_f + k) =
-                      at.dual[a][c] * of_slave(q, k);
+                    T(2 * q + a, c * n_f + k) = at.dual[a][c] * of_slave(q, k);
+                  for (unsigned int k = 0; k < n_m; ++k)
+                    T(2 * q + a, c * n_f + n_s + k) =
+                      -at.dual[a][c] * of_master(q, k);
+                }
+            const double *T_0 = &T(2 * q, 0), *T_1 = &T(2 * q + 1, 0);
+            for (unsigned int a = 0; a < 2; ++a)
+              {
+                const double k_0 = at.curvature[a][0], k_1 = at.curvature[a][1];
+                for (unsigned int j = 0; j < n; ++j)
+                  {
+                    of_normal[a][j]      = k_0 * T_0[j] + k_1 * T_1[j];
+                    others(2 * q + a, j) = 0.5 * factor * of_normal[a][j];
+                  }
+                for (unsigned int c = 0; c < dim; ++c)
                   for (unsigned int k = 0; k < n_m; ++k)
                     {
-                      const unsigned int j   = c * n_f + n_s + k;
-                      rows(4 * q + a, j)     = at.nu[c] * slopes[a](q, k);
-                      rows(4 * q + 2 + a, j) = -at.dual[a][c] * of_master(q, k);
+                      const unsigned int j     = c * n_f + n_s + k;
+                      const double       slope = at.nu[c] * slopes[a](q, k);
+                      of_normal[a][j] += slope;
+                      others(2 * q + a, j) += factor * slope;
                     }
-                }
-            for (unsigned int a = 0; a < 2; ++a)
-              for (unsigned int j = 0; j < n; ++j)
-                {
-                  others(4 * q + a, j) = factor * rows(4 * q + 2 + a, j);
-                  double sum           = rows(4 * q + a, j);
-                  for (unsigned int b = 0; b < 2; ++b)
-                    sum += at.curvature[a][b] * rows(4 * q + 2 + b, j);
-                  others(4 * q + 2 + a, j) = factor * sum;
-                }
-          }
-        rows.Tmmult(result, others);
-        if (!tractions.across.empty())
-          {
-            for (unsigned int q = 0; q < n_q; ++q)
-              {
-                std::vector<double> normal_motion(n);
-                for (unsigned int c = 0; c < dim; ++c)
-                  {
-                    for (unsigned int k = 0; k < n_s; ++k)
-                      normal_motion[c * n_f + k] =
-                        geometry[q].nu[c] * of_slave(q, k);
-                    for (unsigned int k = 0; k < n_m; ++k)
-                      normal_motion[c * n_f + n_s + k] =
-                        -geometry[q].nu[c] * of_master(q, k);
-                  }
-                turn_to_friction(points.weight[q],
-                                 across[q],
-                                 geometry[q],
-                                 normal_motion,
-                                 &rows(4 * q, 0),
-                                 &others(4 * q, 0));
-                for (unsigned int a = 0; a < 2; ++a)
-                  for (unsigned int c = 0; c < dim; ++c)
-                    for (unsigned int k = 0; k < n_m; ++k)
-                      rows(4 * q + a, c * n_f + n_s + k) =
-                        across[q][c] * slopes[a](q, k);
               }
-            rows.Tmmult(result, others, true);
+            if (!has_friction)
+              continue;
+            // the master's points move below the traction, and it turns with
+            // the master
+            const double weight = points.weight[q];
+            for (unsigned int a = 0; a < 2; ++a)
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int k = 0; k < n_m; ++k)
+                  left(3 * q + a, c * n_f + n_s + k) =
+                    across[q][c] * slopes[a](q, k);
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                for (unsigned int k = 0; k < n_s; ++k)
+                  left(3 * q + 2, c * n_f + k) = at.nu[c] * of_slave(q, k);
+                for (unsigned int k = 0; k < n_m; ++k)
+                  left(3 * q + 2, c * n_f + n_s + k) =
+                    -at.nu[c] * of_master(q, k);
+              }
+            const double along[] = {weight * (across[q] * at.dual[0]),
+                                    weight * (across[q] * at.dual[1])};
+            for (unsigned int j = 0; j < n; ++j)
+              {
+                right(3 * q, j)     = -weight * T_0[j];
+                right(3 * q + 1, j) = -weight * T_1[j];
+                right(3 * q + 2, j) =
+                  along[0] * of_normal[0][j] + along[1] * of_normal[1][j];
+              }
           }
+        T.Tmmult(result, others);
+        result.symmetrize();
+        result *= 2.;
+        if (has_friction)
+          left.Tmmult(result, right, true);
         return result;
       }
 
     private:
-      /// From the four rows of a point for pressures to those for the traction
-      /// @p across: the master's points move below it, and it turns with the
-      /// master. @p rows and @p others: n entries each.
-      static void
-      turn_to_friction(const double               weight,
-                       const Tensor<1, dim>      &across,
-                       const Geometry            &at,
-                       const std::vector<double> &normal_motion,
-                       double                    *rows,
-                       double                    *others)
-      {
-        const unsigned int n = normal_motion.size();
-        for (unsigned int j = 0; j < n; ++j)
-          {
-            double turn = 0.;
-            for (unsigned int a = 0; a < 2; ++a)
-              {
-                double sum = rows[a * n + j];
-                for (unsigned int b = 0; b < 2; ++b)
-                  sum += at.curvature[a][b] * rows[(2 + b) * n + j];
-                turn += (across * at.dual[a]) * sum;
-              }
-            for (unsigned int a = 0; a < 2; ++a)
-              {
-                others[a * n + j] = -weight * rows[(2 + a) * n + j];
-                rows[a * n + j]   = 0.; // the caller knows the slopes
-              }
-            rows[2 * n + j]   = normal_motion[j];
-            others[2 * n + j] = weight * turn;
-            rows[3 * n + j] = others[3 * n + j] = 0.;
-          }
-      }
-
       void
       set_slopes(const Point<2>                    &eta,
                  const unsigned int                 q,
