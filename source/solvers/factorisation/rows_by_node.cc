@@ -24,7 +24,12 @@ namespace mortise
     for (unsigned int i = 0; i < n; ++i)
       {
         const auto row = matrix.row(i);
-        nodes.lengths.push_back(row.length);
+        nodes.lengths.push_back(std::max(1u, row.length));
+        if (row.length == 0)
+          {
+            nodes.columns.push_back(static_cast<int>(matrix.global_row(i)));
+            nodes.values.push_back(1.);
+          }
         for (unsigned int k = 0; k < row.length; ++k)
           nodes.columns.push_back(
             static_cast<int>(matrix.global_column(row.columns[k])));

@@ -31,8 +31,6 @@ namespace mortise
     for (const auto &independent : system.bulk->independent_displacements())
       weights.local_element(independent.index) = 0.;
     undirected = weighted_square(rows, weights);
-    if (system.constraint.has_frames())
-      undirected = in_frames(undirected, system.constraint.frames());
     if (system.active)
       update_directions();
     else
@@ -42,8 +40,14 @@ namespace mortise
   RowsByNode
   ApproximateSchurComplement::in_directions(RowsByNode C) const
   {
+    std::vector<bool> left_out;
     if (system.directions)
-      C = in_frames(C, system.directions->turn);
+      {
+        left_out = *system.active;
+        left_out.flip();
+      }
+    if (const CouplingMatrix &B = system.directed_constraint(); B.has_frames())
+      C = in_frames(C, B.frames(), left_out);
     if (system.has_springs())
       add(C, system.compliance());
     return C;

@@ -29,7 +29,8 @@ namespace mortise
     }
   };
 
-  /// Each row of @p matrix as a node of one component.
+  /// Each row of @p matrix as a node of one component; one without entries has
+  /// a diagonal of one.
   RowsByNode
   rows_as_nodes(const SparseMatrix &matrix);
 

@@ -14,7 +14,10 @@ namespace mortise
                   const LevelVector<double> &weights);
 
   /// R C R^T for the C of rows by component, each row a node. @p frames: R, see
-  /// BlockSystem. Collective.
+  /// BlockSystem. @p left_out: rows of R, owned, that get a diagonal of one
+  /// alone; empty: none. Collective.
   RowsByNode
-  in_frames(const RowsByNode &C, const SparseMatrix &frames);
+  in_frames(const RowsByNode        &C,
+            const SparseMatrix      &frames,
+            const std::vector<bool> &left_out = {});
 } // namespace mortise
