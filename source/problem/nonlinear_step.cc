@@ -200,7 +200,8 @@ namespace mortise
       size = tolerance;
     // a body that is prescribed as a whole has no forces that could be left
     // and the laws of contact are those of the last solve
-    if (rest.linfty_norm() > 0. || (!linearised_at && contact != nullptr))
+    if (rest.linfty_norm() > 0. || violates ||
+        (!linearised_at && contact != nullptr))
       size = std::max(size, 2. * tolerance);
     if (along == nullptr)
       size = std::max(size, preloads.lack(x));
@@ -266,8 +267,8 @@ namespace mortise
   NonlinearStep::begin_iterations()
   {
     reference = size = size_before = contraction = 0.;
-    stays                                        = false;
-    at_last_state                                = true;
+    stays = violates = false;
+    at_last_state    = true;
     linearised_at.reset();
     why      = "Newton's method stagnates";
     is_wrong = false;

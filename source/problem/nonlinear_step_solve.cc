@@ -124,8 +124,8 @@ namespace mortise
     // of slender bodies stiffness times displacement is far more than forces
     const double part     = std::min(1., reference / norm->norm(linear.rhs));
     const double accuracy = accuracy_of_contact(part);
-    SolveReport  report =
-      contact->solve(*data, linear, solution, accuracy, part);
+    SolveReport  report   = contact->solve(
+      *data, linear, solution, accuracy, part, allowed_violation());
     const bool shows = solver.is_ready();
     if (!shows)
       show_without_stress();
@@ -143,7 +143,9 @@ namespace mortise
       x.displacement.local_element(i) = 0.;
     load->rhs.multiplier = linear.rhs.multiplier; // with its shortenings
     last_iterations      = contact->linear_iterations();
+    report.iterations    = last_iterations; // of all sets
     stays                = report.converged && last_iterations == 0;
+    violates             = contact->violates_friction();
     least_cost           = 0.; // preconditioners see each state
     if (!report.converged)
       why = "contact does not converge";

@@ -225,6 +225,8 @@ namespace mortise
     /// hand side.
     double
     accuracy_of_contact(double part) const;
+    double
+    allowed_violation() const;
     /// Without what rounding leaves of the rest.
     void
     set_prescribed(SystemVector &x) const;
@@ -263,7 +265,8 @@ namespace mortise
     double       contraction  = 0.;    ///< of the last iteration; 0: none yet
     double       time_of_load = 0.;    ///< with arc-length control
     bool         balanced     = false; ///< the iterate, but for its distance
-    bool         stays = false; ///< linear solves do not improve the iterate
+    bool         stays    = false; ///< linear solves do not improve the iterate
+    bool         violates = false; ///< the last solve friction, see ContactStep
     unsigned int last_iterations = 0;
     /// Iterations of linear solves per digit: of the last, and the least since
     /// preconditioners were made; 0: not yet known.

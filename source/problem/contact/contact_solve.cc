@@ -33,13 +33,17 @@ namespace mortise
     shows                      = !n_shown || n_held > 2 * *n_shown ||
             (tolerance == asked && 2 * n_held < *n_shown);
     const bool repaired = std::exchange(other_pairs, false);
+    const bool changes =
+      Utilities::MPI::max(statuses == prepared ? 0 : 1, run.comm) == 1 ||
+      !solver.is_ready();
+    prepared = statuses;
     if (shows)
       show();
     else if (repaired)
       solver.update_interfaces();
     else if (turns)
       solver.update_directions();
-    else
+    else if (changes)
       solver.update_active();
     if (turns)
       preloads.system_changed();

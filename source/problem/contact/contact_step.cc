@@ -133,9 +133,11 @@ namespace mortise
     const bool is_solved =
       iterations == 0 && discretisation.choice().method != SolverMethod::direct;
     if (is_last && !changes &&
-        (of_friction.error <= 10. * accuracy || is_solved))
+        (of_friction.error <= std::max(10. * accuracy, allowed_violation) ||
+         is_solved))
       {
-        set = std::move(next);
+        set      = std::move(next);
+        is_loose = !is_solved && of_friction.error > 10. * accuracy;
         return 0.;
       }
     if (const double before_that = std::exchange(violation, of_friction.error);
@@ -250,15 +252,19 @@ namespace mortise
                      SceneLoad       &of_step,
                      SystemVector    &x,
                      const double     accuracy,
-                     const double     part)
+                     const double     part,
+                     const double     violation_allowed)
   {
-    asked = accuracy;
-    load  = &of_step;
+    asked             = accuracy;
+    allowed_violation = violation_allowed;
+    load              = &of_step;
     friction.begin(data);
-    // a factorisation gives all digits at once
-    tolerance = discretisation.choice().method == SolverMethod::direct ?
-                  asked :
-                  std::max(loose * part, asked);
+    // a factorisation gives all digits at once, and with other pairs within a
+    // step the set is near
+    tolerance =
+      other_pairs || discretisation.choice().method == SolverMethod::direct ?
+        asked :
+        std::max(loose * part, asked);
     used_strength.reset();
     // from lower degrees and from step to step the edge is near already
     cold          = !first && !last;
@@ -267,8 +273,8 @@ namespace mortise
     overshoots    = 0;
     slip_extends  = true;
     slip_extended = false;
-    no_set        = false;
-    sets          = 0;
+    no_set = is_loose = false;
+    sets              = 0;
     set.start_from(predict(of_step, x));
     // where nothing is predicted to turn one system is all
     const bool turns =

@@ -44,13 +44,15 @@ namespace mortise
     /// body and motion if contact is lost, or friction does not hold a body
     /// that nothing else does. Collective.
     /// @p accuracy: of the last linear solve. @p part: of the right hand side
-    /// that forces are.
+    /// that forces are. @p violation_allowed: of the law of friction, beside the
+    /// largest traction.
     SolveReport
     solve(const SceneData &data,
           SceneLoad       &load,
           SystemVector    &x,
           double           accuracy,
-          double           part = 1.);
+          double           part              = 1.,
+          double           violation_allowed = 0.);
 
     /// Did the last solve() end without the set of its solution, since sets
     /// recur or are too many? That is so only where contact follows the
@@ -59,6 +61,14 @@ namespace mortise
     lacks_set() const
     {
       return no_set;
+    }
+
+    /// Did the last solve() end with a violation of friction that is larger
+    /// than its accuracy?
+    bool
+    violates_friction() const
+    {
+      return is_loose;
     }
 
     /// Go on with the preconditioner of @p other, of other pairs. Its system
@@ -246,8 +256,9 @@ namespace mortise
     unsigned int          iterations = 0; ///< of the last set
     /// Nodes that hold in the penalties of coarse levels.
     std::optional<std::uint64_t> n_shown;
-    bool shows       = false; ///< is the next one to be in these?
-    bool other_pairs = false; ///< has the preconditioner
+    bool                    shows = false; ///< is the next one to be in these?
+    std::vector<NodeStatus> prepared;      ///< of which the solver knows
+    bool                    other_pairs = false; ///< has the preconditioner
     /// The most of a set that needed it to be so.
     unsigned int iterations_when_shown = 0;
     bool         cold = true; ///< is the first set of the step a poor guess?
@@ -257,7 +268,9 @@ namespace mortise
     unsigned int overshoots = 0;     ///< sets that closed again
     /// Likewise of slip.
     bool   slip_extends = true, slip_extended = false;
-    bool   no_set    = false;
-    double violation = 0.; ///< of friction by the last set
+    bool   no_set            = false;
+    bool   is_loose          = false; ///< see violates_friction()
+    double allowed_violation = 0.;
+    double violation         = 0.; ///< of friction by the last set
   };
 } // namespace mortise
