@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """sliding.py MORTISE: contact that follows the bodies beside the same bodies with pairs that stay and with a tie. Writes its part of
-doc/measurements/deformed_contact.md: iterations by step and seconds of a ball that is pushed in a cup, of a block that slides over another one,
-and of scenes with friction.
+doc/measurements/deformed_contact.md: iterations by step and seconds of a ball that is pushed in a cup, of a block and of a die that slide
+over another one, and of scenes with friction.
 sliding.py MORTISE --ironing N: prm/ironing.prm with 194,190 unknowns on two processes, which is pressed in four steps and drawn in N; prints seconds and iterations of a
 step that is drawn, and the memory of a process."""
 import json
@@ -115,6 +115,26 @@ def slides(mortise):
     return rows
 
 
+def ripple(mortise):
+    """The force on a round die without friction, drawn over 20 faces of the block in 41 steps, each of which ends at another place of a face."""
+    rows = ["| p | unknowns | Newton, mean | force, mean | largest deviation, relative | tangential force, largest, relative |", "|---" * 6 + "|"]
+    for degree in (1, 2, 3, 4):
+        code, summary, _ = outcome(mortise, "ironing", f"Body block/Degree={degree}", "Body block/Mesh/Extent=0, 0, -0.5, 6, 0.125, 0", "Body block/Mesh/Subdivisions=144, 1, 8",
+                                   f"Body die/Degree={degree}", "Body die/Mesh/Subdivisions=13, 3, 1", "Body die/Mesh/Translate=2.4, 0.125, 0.6", "Body die/Material/Young modulus=1",
+                                   "Body die/Boundary inside/Displacement=5/6*max(t - 1, 0), 0, -0.08*min(t, 1)", "Interface touch/Friction coefficient=0",
+                                   "Steps/Step=" + ", ".join(f"{t:.10g}" for t in [0.25, 0.5, 0.75, 1.] + [1 + k / 41 for k in range(1, 42)]))
+        if code != 0:
+            rows.append(f"| {degree} | - | | | | |")
+            continue
+        steps = [step for step in summary["steps"] if step["time"] > 1 + 1e-9]
+        forces = [step["quantities"]["die"] for step in steps]
+        mean = sum(f[2] for f in forces) / len(forces)
+        rows.append(f"| {degree} | {last(summary)['dofs']['total']} | {sum(step['solver']['newton_iterations'] for step in steps) / len(steps):.1f} | {mean:.6f} | "
+                    f"{max(abs(f[2] / mean - 1) for f in forces):.1e} | {max(abs(f[0] / mean) for f in forces):.1e} |")
+        print(rows[-1], flush=True)
+    return rows
+
+
 def friction(mortise):
     rows = ["| scene | p | unknowns | Newton, mean | most | seconds | ratio of forces, mean | largest deviation | from theory |", "|---" * 9 + "|"]
     held = lambda step: math.hypot(*step["quantities"]["end"][:2]) * 200  # the pull at the other end is 1 / 200
@@ -151,7 +171,8 @@ def ironing(mortise, n):
 def main(mortise):
     text = ["### A ball in a cup", "", "An octant of a hollow ball (radii 0.5 and 1) is pushed by 0.05, 0.15 and 0.25 in four steps against a cup of the same neo-Hookean material (radii 1.02 and 1.5).", ""]
     text += balls(mortise) + ["", "### A block slides over another one", "", "`tests/field/block_slides_on_rubber.prm`: from t = 2 on, four lengths of the block, over 22 faces of the longer one, of which each is less than one of its own.", ""]
-    text += slides(mortise) + ["", "### Friction", "", "Scenes of `prm/` with their degrees changed; iterations and ratios of tangential to normal forces, of the forces at the ends of the belt, in steps in which all slips or rolls.", ""]
+    text += slides(mortise) + ["", "### A round die slides over a block", "", "Without friction and with E = 1 on both sides, over 20 faces of the block (by the way of `prm/ironing.prm` with meshes of one cell across), about seven of which are in contact.", ""]
+    text += ripple(mortise) + ["", "### Friction", "", "Scenes of `prm/` with their degrees changed; iterations and ratios of tangential to normal forces, of the forces at the ends of the belt, in steps in which all slips or rolls.", ""]
     write_part("deformed_contact.md", "three dimensions", "\n".join(text + friction(mortise)))
 
 
