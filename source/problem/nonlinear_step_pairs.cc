@@ -182,9 +182,9 @@ namespace mortise
   NonlinearStep::follow(const State &last, SystemVector &x)
   {
     const SystemVector start = x;
-    allow_force_stiffness();
-    NewtonReport report = improve_with_pairs(last, true, x);
-    const auto   again  = [&](const std::string &how) {
+    has_force_stiffness      = true;
+    NewtonReport report      = improve_with_pairs(last, true, x);
+    const auto   again       = [&](const std::string &how) {
       run.log.line("    again " + how);
       x = start;
       begin_iterations();

@@ -58,14 +58,6 @@ namespace mortise
   }
 
   void
-  NonlinearStep::allow_force_stiffness()
-  {
-    // the matrix that is factorised does not have it
-    has_force_stiffness =
-      discretisation.choice().method != SolverMethod::direct;
-  }
-
-  void
   NonlinearStep::show_without_stress()
   {
     discretisation.show_tangent(false);
@@ -78,7 +70,7 @@ namespace mortise
     SystemVector x = state.solution;
     x.displacement = state.displacement;
     linearised_at.reset();
-    allow_force_stiffness();
+    has_force_stiffness = true;
     linearise(x);
     solver.set_limits(run.parameters.solver.tolerance,
                       SolverOptions().energy_fraction,

@@ -255,6 +255,13 @@ namespace mortise
       positive      = positive && is_symmetric;
     }
 
+    /// What add_to_stiffness() was given; without rows after linearise().
+    const SparseMatrix &
+    stiffness_of_interfaces() const
+    {
+      return of_interfaces;
+    }
+
     /// Forces by node, also at constrained components, of @p pressures at @p u,
     /// as for respond(); on @p boundary of body @p body alone, if that is
     /// given. Collective.

@@ -118,8 +118,6 @@ namespace mortise
     /// The same forces as in solve_bordered(), per time.
     SystemVector
     rate_of_forces(const SystemVector &x);
-    void
-    allow_force_stiffness();
     /// Where the tangent with its initial stress has no preconditioner.
     void
     show_without_stress();

@@ -189,6 +189,44 @@ namespace mortise
       return result;
     }
 
+    /// Calls @p visit(i, columns, values) for the stiffness of interfaces, without
+    /// constrained components.
+    template <typename Visit>
+    void
+    for_each_row_of_interfaces(const BulkSystem &bulk,
+                               const Numbering  &numbering,
+                               const Visit      &visit)
+    {
+      const SparseMatrix &K = bulk.stiffness_of_interfaces();
+      if (K.m() == 0)
+        return;
+      std::vector<double> is_free(K.n_rows(), 1.);
+      for (const unsigned int i : bulk.levels().front().constrained)
+        is_free[i] = 0.;
+      const std::vector<double> of_columns = K.on_columns(is_free.data());
+      for (unsigned int i = 0; i < K.n_rows(); ++i)
+        {
+          if (is_free[i] == 0.)
+            continue;
+          const auto          row = K.row(i);
+          ExpansionList       columns;
+          std::vector<double> values;
+          for (unsigned int k = 0; k < row.length; ++k)
+            if (of_columns[row.columns[k]] != 0.)
+              {
+                columns.add(numbering(Numbering::displacement,
+                                      K.global_column(row.columns[k])),
+                            1.);
+                columns.close();
+                values.push_back(row.values[k]);
+              }
+          if (!values.empty())
+            visit(numbering(Numbering::displacement, K.global_row(i)),
+                  columns,
+                  FullMatrix<double>(1, values.size(), values.data()));
+        }
+    }
+
     /// Calls @p visit(i, columns, values, transposed) for what is not K, G and C:
     /// entries of the row i, or of the column. @p B and @p forces: expanded, without
     /// rows where there are no multipliers.
@@ -281,6 +319,13 @@ namespace mortise
                                 else
                                   visit(one(i), columns, values, false);
                               });
+      for_each_row_of_interfaces(bulk,
+                                 numbering,
+                                 [&](const Index               i,
+                                     const ExpansionList      &columns,
+                                     const FullMatrix<double> &values) {
+                                   visit(one(i), columns, values, false);
+                                 });
       // as the norm of residuals has it
       const double diagonal = 1.;
       for (const auto &line : constraints.get_lines())
