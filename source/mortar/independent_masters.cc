@@ -18,6 +18,24 @@ namespace mortise
       return trace.depth / (2. * penalty_factor * trace.modulus);
     }
 
+    /// A face whose displacement is prescribed does not give way.
+    bool
+    is_held(const FaceTrace &trace)
+    {
+      return trace.column.empty();
+    }
+
+    /// Of the layers on both sides; an independent master has none.
+    double
+    compliance(const FaceTrace &slave,
+               const FaceTrace &master,
+               const bool       is_independent)
+    {
+      if (is_independent || is_held(master))
+        return compliance(slave);
+      return compliance(master) + (is_held(slave) ? 0. : compliance(slave));
+    }
+
     /// Nodes on an area, but for a factor that all shapes share.
     double
     density(const SurfaceFace &face, const FaceTrace &trace)
@@ -82,8 +100,7 @@ namespace mortise
         const FaceTrace &master = interface.master_traces()[partner.master];
         local.penalty =
           std::min(local.penalty,
-                   1. / (compliance(slave) +
-                         (partner.is_independent ? 0. : compliance(master))));
+                   1. / compliance(slave, master, partner.is_independent));
       }
   }
 } // namespace mortise

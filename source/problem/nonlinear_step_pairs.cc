@@ -20,9 +20,10 @@ namespace mortise
                            most_useless = 20, few_pairings = 10,
                            most_without_set = 2;
 
-    /// Residuals below these that do not fall by half, the smaller in one
-    /// iteration and the larger in so many, are what numbers of points of
-    /// integration leave that change with the pairs.
+    /// Residuals below the smaller that do not fall or that linear solves leave
+    /// as they are, and below the larger that do not fall by half in so many
+    /// iterations, are what numbers of points of integration leave that change
+    /// with the pairs.
     constexpr double       rounding_of_pairs = 1e-7, most_rounding = 1e-6;
     constexpr unsigned int most_of_rounding = 3;
 
@@ -274,12 +275,13 @@ namespace mortise
         if (all.iterations > 0)
           contraction = all.residual / before_that;
         print(++all.iterations, all.residual);
-        rises         = all.residual < 0.5 * best ? 0 : rises + 1;
-        best          = std::min(best, all.residual);
-        n_without_set = lacks_set ? n_without_set + 1 : 0;
-        all.converged = !lacks_set && !violates &&
+        const bool falls = all.residual < best;
+        rises            = all.residual < 0.5 * best ? 0 : rises + 1;
+        best             = std::min(best, all.residual);
+        n_without_set    = lacks_set ? n_without_set + 1 : 0;
+        all.converged    = !lacks_set && !violates &&
                         (all.residual <= tolerance() ||
-                         (best < rounding_of_pairs && rises > 0) ||
+                         (best < rounding_of_pairs && (!falls || stays)) ||
                          (best < most_rounding && rises >= most_of_rounding));
         if (all.converged || n_without_set > most_without_set)
           break;

@@ -118,17 +118,21 @@ namespace mortise
     const double accuracy = accuracy_of_contact(part);
     SolveReport  report   = contact->solve(
       *data, linear, solution, accuracy, part, allowed_violation());
-    const bool shows = solver.is_ready();
-    if (!shows)
-      show_without_stress();
+    const auto again = [&](const double tolerance) {
+      solution = start;
+      report   = contact->solve(*data, linear, solution, tolerance, part);
+    };
+    if (!solver.is_ready())
+      {
+        show_without_stress();
+        again(accuracy);
+      }
+    if (!report.converged && discretisation.try_as_indefinite())
+      again(accuracy);
     // sets may cycle where solutions are loose
     const double least = run.parameters.solver.tolerance;
-    if (!report.converged &&
-        (!shows || discretisation.try_as_indefinite() || accuracy > least))
-      {
-        solution = start;
-        report   = contact->solve(*data, linear, solution, least, part);
-      }
+    if (!report.converged && accuracy > least)
+      again(least);
     x = solution;
     x.displacement += load->prescribed_at_nodes;
     for (const unsigned int i : hanging)

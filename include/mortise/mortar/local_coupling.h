@@ -72,8 +72,8 @@ namespace mortise
     /// then turns freely in its bore, which psi_k n_k would prevent, since
     /// psi_k changes sign from degree 2 on. Empty: psi_k n_k.
     std::vector<dealii::Tensor<1, dim>> along_normals;
-    double penalty = 0.; ///< of jumps: about E / h of the softer side, or of
-                         ///< the slave if a master is independent
+    double penalty = 0.; ///< of jumps: about E / h of the softer side that
+                         ///< gives way, not an independent master
 
     /// Fractions of the multipliers that hold along the normal and
     /// tangentially, see select_nodes().
