@@ -203,18 +203,20 @@ namespace mortise
     }
 
     /// One call of GMRES for the scaled residual @p r, until it is @p goal; adds
-    /// the iterations to @p report.
+    /// the iterations to @p report. @p is_indefinite: may K be?
     BlockVector
     iterate(const ScaledOperator      &matrix,
             const BlockPreconditioner &preconditioner,
+            const bool                 is_indefinite,
             const BlockVector         &r,
             const double               goal,
             const double               rhs_norm,
             const SolverOptions       &options,
             SolveReport               &report)
     {
-      constexpr unsigned int max_basis = 60;
-      BlockVector            x(r);
+      // what is to be found of negative directions is lost with the basis
+      const unsigned int max_basis = is_indefinite ? 150 : 60;
+      BlockVector        x(r);
       x = 0.;
       SolverControl control(options.max_iterations - report.iterations,
                             goal,
@@ -283,9 +285,15 @@ namespace mortise
       {
         BlockVector r = as_blocks(all_r);
         r.scale(matrix.weight);
-        add(
-          solution,
-          iterate(matrix, preconditioner, r, goal, rhs_norm, options, report));
+        add(solution,
+            iterate(matrix,
+                    preconditioner,
+                    !system.bulk->may_be_positive(),
+                    r,
+                    goal,
+                    rhs_norm,
+                    options,
+                    report));
         residual.compute(rhs, solution, all_r);
         reached = residual.norm(all_r);
         goal    = std::min(goal, 0.1 * reached);
