@@ -8,8 +8,8 @@ namespace mortise
             const SparseMatrix      &frames,
             const std::vector<bool> &left_out)
   {
-    const MPI_Comm     comm = frames.communicator();
-    const SparseMatrix A = as_matrix(C, comm), by_row = frames.transposed();
+    const MPI_Comm      comm = frames.communicator();
+    const SparseMatrix  A = as_matrix(C, comm), by_row = frames.transposed();
     std::vector<double> flags(left_out.begin(), left_out.end());
     if (!left_out.empty())
       flags = by_row.on_columns(flags.data());

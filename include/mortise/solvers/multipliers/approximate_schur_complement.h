@@ -89,8 +89,8 @@ namespace mortise
     const std::size_t             max_gathered;
     LevelVector<double>           weights;
     /// B T B^T of rows by component, and in the frames of multipliers or, of
-    /// active ones alone, in the directions of the active set; kept once not all
-    /// multipliers are active.
+    /// active ones alone, in the directions of the active set; kept once not
+    /// all multipliers are active.
     RowsByNode undirected, schur;
 
     /// (Entry, inverse of the diagonal) of multipliers without off-diagonal
