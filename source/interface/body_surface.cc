@@ -77,10 +77,7 @@ namespace mortise
           }
       return trace;
     }
-  } // namespace
 
-  namespace
-  {
     /// Throws InputError on all ranks where a face of one cannot be finalized.
     /// Collective.
     void

@@ -98,6 +98,12 @@ def balls(mortise):
     return rows
 
 
+def deviations(forces):
+    """Columns: the mean normal force, the largest deviation from it and the largest tangential force, both beside it."""
+    mean = sum(f[2] for f in forces) / len(forces)
+    return f"{mean:.5g} | {max(abs(f[2] / mean - 1) for f in forces):.1e} | {max(abs(f[0] / mean) for f in forces):.1e}"
+
+
 def slides(mortise):
     top = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "field", "block_slides_on_rubber.prm")
     with open(top) as file:
@@ -108,9 +114,7 @@ def slides(mortise):
         if not summary:
             rows.append(f"| {degree} | - | | | |")
             continue
-        forces = [step["quantities"]["top"] for step in summary["steps"] if step["time"] > 2 - 1e-9]
-        mean = sum(f[2] for f in forces) / len(forces)
-        rows.append(f"| {degree} | {newton(summary)} | {mean:.5f} | {max(abs(f[2] / mean - 1) for f in forces):.1e} | {max(abs(f[0] / mean) for f in forces):.1e} |")
+        rows.append(f"| {degree} | {newton(summary)} | {deviations([step['quantities']['top'] for step in summary['steps'] if step['time'] > 2 - 1e-9])} |")
         print(rows[-1], flush=True)
     return rows
 
@@ -127,10 +131,8 @@ def ripple(mortise):
             rows.append(f"| {degree} | - | | | | |")
             continue
         steps = [step for step in summary["steps"] if step["time"] > 1 + 1e-9]
-        forces = [step["quantities"]["die"] for step in steps]
-        mean = sum(f[2] for f in forces) / len(forces)
-        rows.append(f"| {degree} | {last(summary)['dofs']['total']} | {sum(step['solver']['newton_iterations'] for step in steps) / len(steps):.1f} | {mean:.6f} | "
-                    f"{max(abs(f[2] / mean - 1) for f in forces):.1e} | {max(abs(f[0] / mean) for f in forces):.1e} |")
+        rows.append(f"| {degree} | {last(summary)['dofs']['total']} | {sum(step['solver']['newton_iterations'] for step in steps) / len(steps):.1f} | "
+                    f"{deviations([step['quantities']['die'] for step in steps])} |")
         print(rows[-1], flush=True)
     return rows
 

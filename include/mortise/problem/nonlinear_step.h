@@ -146,9 +146,8 @@ namespace mortise
     /// it end that go astray with it.
     NewtonReport
     follow(const State &last, SystemVector &x);
-    /// Iterations of which each has the pairs of the bodies at its start, that
-    /// of
-    /// the first where the last states lead if @p extrapolates.
+    /// Iterations of which each has the pairs of the bodies at its start; that
+    /// of the first is where the last states lead if @p extrapolates.
     NewtonReport
     improve_with_pairs(const State &last, bool extrapolates, SystemVector &x);
     /// Pair the bodies where they are at @p displacement. Collective.
