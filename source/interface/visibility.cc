@@ -27,15 +27,25 @@ namespace mortise
     /// no way leads between two faces.
     constexpr double rim = 1e-6;
 
-    /// Points and the ways to their partners, eight at a time.
+    /// Width of what is added to boxes of faces for their rims, beside the
+    /// length of a box.
+    constexpr double rim_of_box = 10. * rim;
+
+    using Box = BoundingBox<3>;
+
+    /// Ways from points to their partners, eight at a time.
     struct Ways
     {
       Vec3<Lanes> from, way;
+      Lanes       length;
+      Lanes       end; ///< part of the way that belongs to each of its ends
     };
 
     /// Those from point @p begin on; beyond the last one it is repeated.
     Ways
-    ways(const IntegrationPoints &points, const unsigned int begin)
+    ways(const IntegrationPoints &points,
+         const unsigned int       begin,
+         const double             safe)
     {
       Ways result;
       for (unsigned int l = 0; l < n_lanes; ++l)
@@ -47,22 +57,41 @@ namespace mortise
               result.way[d][l]  = points.master_x[d][q] - points.slave_x[d][q];
             }
         }
+      result.length = square_root(dot(result.way, result.way));
+      result.end    = minimum(broadcast(near_end), safe / result.length);
       return result;
     }
 
-    BoundingBox<3>
-    box_of(const IntegrationPoints &points)
+    /// Box of all ways without their ends.
+    Box
+    box_of(const Ways &of)
     {
       Point<3> lower, upper;
       for (unsigned int d = 0; d < 3; ++d)
         {
-          const auto &a = points.slave_x[d], &b = points.master_x[d];
-          const auto  of_a = std::minmax_element(a.begin(), a.end()),
-                     of_b  = std::minmax_element(b.begin(), b.end());
-          lower[d]         = std::min(*of_a.first, *of_b.first);
-          upper[d]         = std::max(*of_a.second, *of_b.second);
+          const Lanes a = of.from[d] + of.end * of.way[d],
+                      b = of.from[d] + (1. - of.end) * of.way[d];
+          lower[d]      = -largest(-minimum(a, b));
+          upper[d]      = largest(maximum(a, b));
         }
-      return BoundingBox<3>({lower, upper});
+      return Box({lower, upper});
+    }
+
+    /// Bits of the lanes whose ways without their ends meet the box @p box.
+    unsigned int
+    lanes_through(const Box &box, const Ways &of)
+    {
+      Lanes enter = of.end, leave = 1. - of.end;
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          const Lanes way   = of.way[d] == 0. ? broadcast(1e-300) : of.way[d];
+          const Lanes lower = (box.lower_bound(d) - of.from[d]) / way,
+                      upper = (box.upper_bound(d) - of.from[d]) / way;
+          enter             = maximum(enter, minimum(lower, upper));
+          leave             = minimum(leave, maximum(lower, upper));
+        }
+      const unsigned int all = (1u << n_lanes) - 1;
+      return all & ~lanes_above(enter, leave);
     }
   } // namespace
 
@@ -75,8 +104,6 @@ namespace mortise
       Vec3<double>  center;
       Vec3<double>  normal; ///< outward, in the middle, times area
     };
-
-    using Box = BoundingBox<3>;
 
     explicit Tree(const std::vector<SurfaceFace> &boundary)
     {
@@ -91,36 +118,36 @@ namespace mortise
             to_vec3(face.orientation * cross_product_3d(face.frame.tangent[0],
                                                         face.frame.tangent[1]));
           faces.push_back(of);
-          all.emplace_back(Box({face.lower, face.upper}), faces.size() - 1);
+          Box box({face.lower, face.upper});
+          box.extend(rim_of_box * face.lower.distance(face.upper));
+          all.emplace_back(box, faces.size() - 1);
         }
       boxes = pack_rtree(all);
     }
 
-    /// Sets entries of @p result where a face other than @p except is crossed.
+    /// Sets entries of @p result, from @p begin on, where a face other than
+    /// @p except is crossed.
     void
-    mark_crossed(const std::uint64_t      except,
-                 const double             safe,
-                 const IntegrationPoints &points,
-                 std::vector<bool>       &result) const
+    mark_crossed(const std::uint64_t except,
+                 const Ways         &of,
+                 const unsigned int  begin,
+                 std::vector<bool>  &result) const
     {
       const auto test = [&](const std::pair<Box, unsigned int> &entry) {
         const Face &face = faces[entry.second];
-        if (face.id != except)
-          for (unsigned int begin = 0; begin < points.size(); begin += n_lanes)
-            mark_crossed(face, safe, points, begin, result);
+        if (face.id != except && lanes_through(entry.first, of) != 0)
+          mark_crossed(face, of, begin, result);
       };
-      boxes.query(boost::geometry::index::intersects(box_of(points)),
+      boxes.query(boost::geometry::index::intersects(box_of(of)),
                   boost::make_function_output_iterator(test));
     }
 
     void
-    mark_crossed(const Face              &face,
-                 const double             safe,
-                 const IntegrationPoints &points,
-                 const unsigned int       begin,
-                 std::vector<bool>       &result) const
+    mark_crossed(const Face        &face,
+                 const Ways        &of,
+                 const unsigned int begin,
+                 std::vector<bool> &result) const
     {
-      const Ways of = ways(points, begin);
       // the projection looks for a place that faces the point: towards it where
       // the way enters the body, backwards where it leaves
       const Lanes        along = dot(of.way, face.normal);
@@ -130,19 +157,17 @@ namespace mortise
       const Vec3<Lanes>  from = of.from - broadcast(face.center);
       const unsigned int failed =
         face.map.project(from, sign * of.way, false, eta, t, at, slope);
-      t                   = sign * t;
-      const Lanes  length = square_root(dot(of.way, of.way));
-      const double size   = std::sqrt(dot(face.normal, face.normal));
-      for (unsigned int l = 0; l < n_lanes && begin + l < points.size(); ++l)
+      t                 = sign * t;
+      const double size = std::sqrt(dot(face.normal, face.normal));
+      for (unsigned int l = 0; l < n_lanes && begin + l < result.size(); ++l)
         {
           const double most = 1. + rim;
-          const double end  = std::min(near_end, safe / length[l]);
-          if ((failed & (1u << l)) == 0 && t[l] > end && t[l] < 1. - end &&
-              eta[0][l] >= -rim && eta[1][l] >= -rim &&
+          if ((failed & (1u << l)) == 0 && t[l] > of.end[l] &&
+              t[l] < 1. - of.end[l] && eta[0][l] >= -rim && eta[1][l] >= -rim &&
               (face.map.shape == FaceShape::triangle ?
                  eta[0][l] + eta[1][l] <= most :
                  eta[0][l] <= most && eta[1][l] <= most) &&
-              std::fabs(slope[l]) > grazing * size * length[l])
+              std::fabs(slope[l]) > grazing * size * of.length[l])
             result[begin + l] = true;
         }
     }
@@ -166,10 +191,11 @@ namespace mortise
                      const IntegrationPoints &points) const
   {
     std::vector<bool> result(points.size(), false);
-    if (points.size() > 0)
+    for (unsigned int begin = 0; begin < points.size(); begin += n_lanes)
       {
-        slave_tree->mark_crossed(slave, safe, points, result);
-        master_tree->mark_crossed(master, safe, points, result);
+        const Ways of = ways(points, begin, safe);
+        slave_tree->mark_crossed(slave, of, begin, result);
+        master_tree->mark_crossed(master, of, begin, result);
       }
     return result;
   }
