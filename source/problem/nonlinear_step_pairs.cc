@@ -62,6 +62,8 @@ namespace mortise
       }
     discretisation.pair(discretisation.solutions(without_prescribed, x), moved);
     discretisation.set_gaps(*data, *load);
+    preloads.pair_again();
+    preloads.add_shortenings(*load);
     norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
     paired_at = displacement;
   }

@@ -69,6 +69,7 @@ namespace mortise
       {
         discretisation.pair(values.solutions);
         discretisation.set_gaps(data, load);
+        preloads.pair_again();
         if (contact)
           contact = std::make_unique<ContactStep>(
             run, discretisation, *linear_solver, preloads, state.contact);

@@ -64,12 +64,31 @@ namespace mortise
               "a nearly flat interface, whose normal is the direction of the force");
           indices.push_back(i);
           values.push_back(0.);
-          units.push_back({discretisation.linear_system().zero_vector(), {}});
-          Vector &w = units.back().rhs.multiplier;
-          add_offset(
-            coupling, [](const Point<dim> &) { return 1.; }, w);
         }
     forces.resize(indices.size());
+    units.resize(indices.size());
+    pair_again();
+  }
+
+  void
+  Preloads::pair_again()
+  {
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      {
+        units[j] = {discretisation.linear_system().zero_vector(), {}};
+        add_offset(
+          discretisation.interfaces().all()[indices[j]],
+          [](const Point<dim> &) { return 1.; },
+          units[j].rhs.multiplier);
+      }
+    have_units = known = false;
+  }
+
+  void
+  Preloads::add_shortenings(SceneLoad &load) const
+  {
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      load.rhs.multiplier.add(values[j], units[j].rhs.multiplier);
   }
 
   std::vector<double>
@@ -124,8 +143,8 @@ namespace mortise
           indices[j] < shortenings.size() ? shortenings[indices[j]] : 0.;
         forces[j] =
           data.preload(discretisation.interfaces().sides()[indices[j]]);
-        load.rhs.multiplier.add(values[j], units[j].rhs.multiplier);
       }
+    add_shortenings(load);
   }
 
   void

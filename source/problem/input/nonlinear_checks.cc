@@ -49,9 +49,6 @@ namespace mortise
         return "Mesh gap = ignored";
       if (parameters.steps.by_arc_length)
         return "Steps/Control = arc length";
-      for (const InterfaceParameters &other : parameters.interfaces)
-        if (other.preload)
-          return "the Preload of interface " + other.name;
       return "";
     }
   } // namespace

@@ -59,6 +59,14 @@ namespace mortise
     double
     force(unsigned int j, const SystemVector &x) const;
 
+    /// The interfaces have been paired again, so that multipliers are others.
+    void
+    pair_again();
+
+    /// To @p load, which has none.
+    void
+    add_shortenings(SceneLoad &load) const;
+
     /// The system of the solver is another one, whatever its active set.
     void
     system_changed()
