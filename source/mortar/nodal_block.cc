@@ -38,11 +38,18 @@ namespace mortise
       return result;
     }
 
+    /// Linear functions are those of nodes.
+    bool
+    stays(const BlockSide &side)
+    {
+      return side.nodal == 0 || (side.nodal == 1 && side.modal == 1);
+    }
+
     /// F^T A with the two-dimensional F of @p side.
     FullMatrix<double>
     transform_rows(const FullMatrix<double> &A, const BlockSide &side)
     {
-      if (side.nodal == 0)
+      if (stays(side))
         return A;
       if (side.shape == FaceShape::triangle)
         return transform_triangle_rows(A, side);
@@ -72,7 +79,7 @@ namespace mortise
               const BlockSide          &columns)
   {
     const FullMatrix<double> half = transform_rows(modal, rows);
-    if (columns.nodal == 0)
+    if (stays(columns))
       return half;
     return transposed(transform_rows(transposed(half), columns));
   }

@@ -99,18 +99,23 @@ def measures(mesh, found, a, touch, o):
     return dict(error=error, error_pressure=exact.pressure_error(forces), error_pressure_max=float(abs(stresses - 1).max()), error_penalty_max=float(abs(penalties - 1).max()))
 
 
-o = fit.arguments(h=1., penalty=1e3, rule=5, tolerance=1e-3)
-ng.SetNumThreads(1)
-ng.ngsglobals.msg_level = 0
-clock = spheres.Clock()
-result = dict(code="NGSolve", element="tet", order=o.p, h=o.h, method="penalty %g, rule %d" % (o.penalty, o.rule))
-try:
-    mesh = tetrahedra(o)
-    result["mesh"] = clock.stop()["cpu_solve"]
-    found, a, touch, iterations = solve(mesh, o)
-    result.update(clock.stop(), newton=iterations, unknowns=sum(found.space.FreeDofs()))
-    result["cpu_solve"] = round(result["cpu_solve"] - result["mesh"], 3)
-    result.update(measures(mesh, found, a, touch, o))
-except Exception as failure:  # NGSolve raises its own
-    result.update(clock.stop(), failure=str(failure)[:300])
-spheres.report(**result)
+def main():
+    o = fit.arguments(h=1., penalty=1e3, rule=5, tolerance=1e-3)
+    ng.SetNumThreads(1)
+    ng.ngsglobals.msg_level = 0
+    clock = spheres.Clock()
+    result = dict(code="NGSolve", element="tet", order=o.p, h=o.h, method="penalty %g, rule %d" % (o.penalty, o.rule))
+    try:
+        mesh = tetrahedra(o)
+        result["mesh"] = clock.stop()["cpu_solve"]
+        found, a, touch, iterations = solve(mesh, o)
+        result.update(clock.stop(), newton=iterations, unknowns=sum(found.space.FreeDofs()))
+        result["cpu_solve"] = round(result["cpu_solve"] - result["mesh"], 3)
+        result.update(measures(mesh, found, a, touch, o))
+    except Exception as failure:  # NGSolve raises its own
+        result.update(clock.stop(), failure=str(failure)[:300])
+    spheres.report(**result)
+
+
+if __name__ == "__main__":
+    main()
