@@ -219,13 +219,14 @@ namespace mortise
   {
     if (n_points > 0)
       return gauss_rule(n_points);
-    const unsigned int n = quadrature_points(degree_slave,
-                                             degree_master,
-                                             distortion,
-                                             both_triangles());
+    const unsigned int n =
+      quadrature_points(degree_slave,
+                        degree_master,
+                        products == Products::of_flat_faces ? 0. : distortion,
+                        both_triangles());
     // one more than these: what a rule leaves jumps as well
     return gauss_rule(
-      all_products ?
+      products == Products::all ?
         std::max(n + 1, 2 * std::max(degree_slave, degree_master) + 2) :
         n);
   }
@@ -291,9 +292,9 @@ namespace mortise
 
 
   void
-  PairIntegrator::set_all_products(const bool all)
+  PairIntegrator::set_products(const Products of)
   {
-    scratch->all_products = all;
+    scratch->products = of;
   }
 
 

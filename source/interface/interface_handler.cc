@@ -148,20 +148,20 @@ namespace mortise
   void
   InterfaceHandler::integrate_pairs(const Visitor &visitor)
   {
-    Pass own         = clip(visitor);
+    Pass own         = clip(visitor, products());
     totals           = report_of(own);
     covered_fraction = std::move(own.covered);
   }
 
   InterfaceHandler::Pass
-  InterfaceHandler::clip(const Visitor &visitor) const
+  InterfaceHandler::clip(const Visitor &visitor, const Products products) const
   {
     using Clock = std::chrono::steady_clock;
     PairIntegrator    integrator(options.distance);
     IntegrationPoints points;
     integrator.set_points_per_direction(
       options.points_per_direction.value_or(0));
-    integrator.set_all_products(!slave_surface.undeformed.empty());
+    integrator.set_products(products);
 
     Pass            pass;
     Clock::duration clipping(0);

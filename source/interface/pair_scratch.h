@@ -50,7 +50,7 @@ namespace mortise
     SearchDistance distance;
     double         gap_limit = 0;
     unsigned       n_points = 0, degree_slave = 1, degree_master = 1;
-    bool           all_products = false;
+    Products       products     = Products::of_faces;
     FaceShape      master_shape = FaceShape::quadrilateral;
     MasterMap      master;
     LoopClipper    clipper;

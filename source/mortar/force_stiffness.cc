@@ -341,22 +341,27 @@ namespace mortise
       if (couplings[i].is_directed())
         {
           const InterfaceHandler &interface = *couplings[i].interface;
-          interface.visit_pairs([&](const unsigned int       s,
-                                    const unsigned int       m,
-                                    const IntegrationPoints &points) {
-            if (!tractions[i][s].any())
-              return;
-            const FaceTrace &slave  = interface.slave().traces[s],
-                            &master = interface.master_traces()[m];
-            OfPair              of_pair(interface.slave().faces[s],
-                           slave,
-                           interface.master_faces()[m],
-                           master,
-                           couplings[i].local[s],
-                           tractions[i][s]);
-            const ExpansionList all = functions(slave, master);
-            assembler.add(all(), all(), of_pair(points), 1., false);
-          });
+          interface.visit_pairs_for_tangents(
+            [&](const unsigned int       s,
+                const unsigned int       m,
+                const IntegrationPoints &points) {
+              const auto &partners = couplings[i].local[s].partners;
+              if (!tractions[i][s].any() ||
+                  std::none_of(partners.begin(),
+                               partners.end(),
+                               [m](const auto &of) { return of.master == m; }))
+                return;
+              const FaceTrace &slave  = interface.slave().traces[s],
+                              &master = interface.master_traces()[m];
+              OfPair              of_pair(interface.slave().faces[s],
+                             slave,
+                             interface.master_faces()[m],
+                             master,
+                             couplings[i].local[s],
+                             tractions[i][s]);
+              const ExpansionList all = functions(slave, master);
+              assembler.add(all(), all(), of_pair(points), 1., false);
+            });
         }
     return assembler.create(comm);
   }

@@ -93,6 +93,16 @@ namespace mortise
                     const double       distortion,
                     const bool         both_triangles = false);
 
+  /// Products of functions of both faces that the points of a pair integrate.
+  enum class Products
+  {
+    of_faces, ///< as quadrature_points() says
+    /// More than those of quadrilaterals on cells of any shape, so that
+    /// integrals do not jump where other points are taken as the faces move.
+    all,
+    of_flat_faces ///< fewer, for tangents
+  };
+
   /// Integrates over one slave face after the other against any number of
   /// masters. Owns all scratch memory: one object per thread.
   class PairIntegrator
@@ -128,11 +138,9 @@ namespace mortise
     void
     set_points_per_direction(const unsigned int n);
 
-    /// Take more points than all products of functions of quadrilaterals need
-    /// on cells of any shape, so that integrals do not jump where other points
-    /// are taken as the faces move.
+    /// Default: Products::of_faces.
     void
-    set_all_products(bool all);
+    set_products(Products of);
 
     /// Area of the present slave face.
     double

@@ -83,7 +83,14 @@ namespace mortise
     void
     visit_pairs(const Visitor &visitor) const
     {
-      clip(visitor);
+      clip(visitor, products());
+    }
+
+    /// With fewer points. Pairs may be others, as their points decide.
+    void
+    visit_pairs_for_tangents(const Visitor &visitor) const
+    {
+      clip(visitor, Products::of_flat_faces);
     }
 
     const std::string &
@@ -167,8 +174,16 @@ namespace mortise
       double              sagitta = 0., largest_coverage = 0.;
     };
 
+    /// Of displaced slaves in each iteration.
+    Products
+    products() const
+    {
+      return slave_surface.undeformed.empty() ? Products::of_faces :
+                                                Products::all;
+    }
+
     Pass
-    clip(const Visitor &visitor) const;
+    clip(const Visitor &visitor, Products products) const;
     /// Sums of all ranks. Collective.
     InterfaceReport
     report_of(const Pass &own) const;
