@@ -77,9 +77,12 @@ namespace mortise
     }
 
     // Does the prism of one face lie beside the other face in that face's
-    // chart?
+    // chart, and everything within the reach along the normals of the slave?
     bool
-    beside(const SurfaceFace &face, const Prism &other, const double reach)
+    beside(const SurfaceFace &face,
+           const Prism       &other,
+           const SurfaceFace &slave,
+           const double       reach)
     {
       const FaceFrame    &frame = face.frame;
       const ReferenceBox &box   = frame.chart;
@@ -89,7 +92,7 @@ namespace mortise
                              const double        most) {
         // A triangle's fourth normal only widens the slack.
         double twist = 0;
-        for (const auto &normal : face.vertex_normals)
+        for (const auto &normal : slave.vertex_normals)
           twist = std::max(twist, std::abs(axis * normal));
         double low = 1e300, high = -1e300;
         for (const auto &corner : other.corner)
@@ -211,8 +214,8 @@ namespace mortise
       const SurfaceFace &master = masters[entry.second];
       const double       reach = distance.of(std::max(slave.size, master.size));
       if (normals_may_oppose(slave, master) &&
-          !beside(slave, prism_of(master), reach) &&
-          !beside(master, prism, reach))
+          !beside(slave, prism_of(master), slave, reach) &&
+          !beside(master, prism, slave, reach))
         result.push_back(entry.second);
     };
     tree->boxes.query(boost::geometry::index::intersects(
