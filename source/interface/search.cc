@@ -18,24 +18,48 @@ namespace mortise
   {
     using Box = BoundingBox<3>;
 
-    // The face's box, extended along its normals to both sides by the distance
-    // at which it can still have a partner.
+    // A bound of |axis . n| for the unit normals n of a face, which are means
+    // of those of its vertices.
+    double
+    along_normals(const SurfaceFace &face, const Tensor<1, 3> &axis)
+    {
+      constexpr double shortest = 0.1; // of the means
+      double           most = 0., length = 1.;
+      for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
+        {
+          const Tensor<1, 3> &normal = face.vertex_normals[v];
+          most                       = std::max(most, std::abs(axis * normal));
+          length = std::min(length, face.frame.normal * normal);
+        }
+      return most / std::max(shortest, length);
+    }
+
+    // A partner lies along the normals of the slave, within the distance of the
+    // larger face: in the first box where that is the slave, and else the slave
+    // reaches into the second one.
     Box
-    box_of_reach(const SurfaceFace &face, const SearchDistance &distance)
+    reach_of_slave(const SurfaceFace &slave, const SearchDistance &distance)
     {
       Point<3> lower, upper;
       for (unsigned int d = 0; d < 3; ++d)
         {
-          double component = 0;
-          for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
-            component =
-              std::max(component, std::abs(face.vertex_normals[v][d]));
+          Tensor<1, 3> axis;
+          axis[d] = 1.;
           const double reach =
-            distance.of(face.size) * component + 1e-10 * face.size;
-          lower[d] = face.lower[d] - reach;
-          upper[d] = face.upper[d] + reach;
+            distance.of(slave.size) * along_normals(slave, axis) +
+            1e-10 * slave.size;
+          lower[d] = slave.lower[d] - reach;
+          upper[d] = slave.upper[d] + reach;
         }
       return Box({lower, upper});
+    }
+
+    Box
+    reach_of_master(const SurfaceFace &master, const SearchDistance &distance)
+    {
+      Box box({master.lower, master.upper});
+      box.extend(distance.of(master.size) + 1e-10 * master.size);
+      return box;
     }
 
     // The prism over the face's chart box (over a triangle, what the bound of
@@ -90,10 +114,6 @@ namespace mortise
                              const double        centre,
                              const double        least,
                              const double        most) {
-        // A triangle's fourth normal only widens the slack.
-        double twist = 0;
-        for (const auto &normal : slave.vertex_normals)
-          twist = std::max(twist, std::abs(axis * normal));
         double low = 1e300, high = -1e300;
         for (const auto &corner : other.corner)
           {
@@ -101,7 +121,7 @@ namespace mortise
             low  = std::min(low, chart);
             high = std::max(high, chart);
           }
-        const double slack = 1e-10 + twist * reach;
+        const double slack = 1e-10 + along_normals(slave, axis) * reach;
         return low > most + slack || high < least - slack;
       };
       for (unsigned int i = 0; i < 2; ++i)
@@ -194,7 +214,7 @@ namespace mortise
   {
     std::vector<std::pair<Box, unsigned int>> boxes;
     for (unsigned int m = 0; m < masters.size(); ++m)
-      boxes.emplace_back(box_of_reach(masters[m], distance), m);
+      boxes.emplace_back(reach_of_master(masters[m], distance), m);
     tree->boxes = pack_rtree(boxes);
   }
 
@@ -219,7 +239,7 @@ namespace mortise
         result.push_back(entry.second);
     };
     tree->boxes.query(boost::geometry::index::intersects(
-                        box_of_reach(slave, distance)),
+                        reach_of_slave(slave, distance)),
                       boost::make_function_output_iterator(test));
     std::sort(result.begin(), result.end());
   }
@@ -234,7 +254,7 @@ namespace mortise
   {
     std::vector<Box> slave_boxes, rank_boxes;
     for (const auto &slave : owned_slaves)
-      slave_boxes.push_back(box_of_reach(slave, distance));
+      slave_boxes.push_back(reach_of_slave(slave, distance));
     coarsen(slave_boxes, 0, slave_boxes.size(), 3, rank_boxes);
     const std::vector<std::vector<Box>> all_boxes =
       Utilities::MPI::all_gather(comm, rank_boxes);
@@ -244,7 +264,7 @@ namespace mortise
     std::vector<SurfaceFace>                         result;
     for (const auto &master : owned_masters)
       {
-        const Box reach = box_of_reach(master, distance);
+        const Box reach = reach_of_master(master, distance);
         for (unsigned int rank = 0; rank < all_boxes.size(); ++rank)
           if (std::any_of(all_boxes[rank].begin(),
                           all_boxes[rank].end(),

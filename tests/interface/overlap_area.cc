@@ -181,6 +181,44 @@ namespace
       }
   }
 
+  // A dome below a plane: partners lie along normals that are tilted, beyond
+  // faces of the plane over the rims.
+  void
+  check_tilted(const Pairing &pairing)
+  {
+    const auto dome = [](const double curvature) -> Surface {
+      return [curvature](const double u, const double v) {
+        const double square = std::pow(u - 0.5, 2) + std::pow(v - 0.5, 2);
+        return Point<3>(u, v, -0.02 - curvature * square);
+      };
+    };
+    const Surface flat = [](const double u, const double v) {
+      return Point<3>(u, v, 0.);
+    };
+    double worst = 0;
+    for (const unsigned int degree : {1u, 2u, 4u})
+      for (const auto &ratio :
+           std::vector<std::array<unsigned int, 2>>{{{1, 40}},
+                                                    {{2, 16}},
+                                                    {{2, 77}},
+                                                    {{4, 16}},
+                                                    {{4, 23}},
+                                                    {{4, 40}},
+                                                    {{4, 50}},
+                                                    {{17, 7}},
+                                                    {{30, 2}},
+                                                    {{30, 5}},
+                                                    {{41, 3}}})
+        worst =
+          std::max(worst,
+                   worst_of(pairing,
+                            dome(ratio[0] < 4 ? 0.5 : 0.2),
+                            {ratio[0], ratio[0], degree},
+                            flat,
+                            {ratio[1], ratio[1], 1, -0.5, 1.5, -0.5, 1.5}));
+    verdict(pairing.name + ", a dome below a plane", worst, 1e-11);
+  }
+
   // In the plane of plane(0): the corners of a flat face, counter-clockwise.
   using Polygon = std::vector<Point<2>>;
 
@@ -338,6 +376,7 @@ main()
       check_pairs(pairing, 2, 30, 0.25);
       check_pairs(pairing, 30, 2, 0.25);
       check_partial(pairing);
+      check_tilted(pairing);
     }
   return 0;
 }
