@@ -33,6 +33,14 @@ namespace mortise
     /// Of residuals from one iteration to the next.
     constexpr double slow_contraction = 0.1;
 
+    /// Residuals that have risen so far beside all forces of the bodies: other
+    /// iterations are tried at once.
+    constexpr double hopeless = 1.;
+
+    /// After so many steps in turn that were solved without the stiffness of
+    /// contact forces the next one begins without it.
+    constexpr unsigned int few_without_stiffness = 2;
+
     /// A step starts from an extrapolation that leaves less than this part of
     /// the residual of the last state.
     constexpr double ahead_residual = 0.5;
@@ -185,7 +193,7 @@ namespace mortise
   NonlinearStep::follow(const State &last, SystemVector &x)
   {
     const SystemVector start = x;
-    has_force_stiffness      = true;
+    has_force_stiffness      = n_without_stiffness < few_without_stiffness;
     NewtonReport report      = improve_with_pairs(last, true, x);
     const auto   again       = [&](const std::string &how) {
       run.log.line("    again " + how);
@@ -199,8 +207,14 @@ namespace mortise
     };
     if (!report.converged && !at_last_state)
       again("from the last state");
-    if (!report.converged && std::exchange(has_force_stiffness, false))
-      again("without the stiffness of contact forces");
+    if (!report.converged)
+      {
+        has_force_stiffness = !has_force_stiffness;
+        again(has_force_stiffness ? "with the stiffness of contact forces" :
+                                    "without the stiffness of contact forces");
+      }
+    n_without_stiffness =
+      report.converged && !has_force_stiffness ? n_without_stiffness + 1 : 0;
     return report;
   }
 
@@ -285,7 +299,8 @@ namespace mortise
                         (all.residual <= tolerance() ||
                          (best < rounding_of_pairs && (!falls || stays)) ||
                          (best < most_rounding && rises >= most_of_rounding));
-        if (all.converged || n_without_set > most_without_set)
+        if (all.converged || n_without_set > most_without_set ||
+            (has_force_stiffness && rises > 0 && all.residual > hopeless))
           break;
       }
     all.easy = all.converged && all.iterations <= few_pairings;

@@ -259,6 +259,7 @@ namespace mortise
     double                      reference = 0.; ///< size of forces
     double       size = 0., size_before = 0.;   ///< of iterates' residuals
     bool         has_force_stiffness = true;    ///< the tangent, of contact
+    unsigned int n_without_stiffness = 0;       ///< last steps without it
     double       contraction  = 0.;    ///< of the last iteration; 0: none yet
     double       time_of_load = 0.;    ///< with arc-length control
     bool         balanced     = false; ///< the iterate, but for its distance
