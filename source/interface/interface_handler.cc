@@ -154,7 +154,9 @@ namespace mortise
   }
 
   InterfaceHandler::Pass
-  InterfaceHandler::clip(const Visitor &visitor, const Products products) const
+  InterfaceHandler::clip(const Visitor &visitor,
+                         const Products products,
+                         const Choice  &choice) const
   {
     using Clock = std::chrono::steady_clock;
     PairIntegrator    integrator(options.distance);
@@ -167,6 +169,8 @@ namespace mortise
     Clock::duration clipping(0);
     for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
       {
+        if (choice && !choice(s))
+          continue;
         auto before = Clock::now();
         integrator.reinit(slave_surface.faces[s]);
         Coverage face;

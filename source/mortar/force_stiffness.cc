@@ -341,13 +341,14 @@ namespace mortise
       if (couplings[i].is_directed())
         {
           const InterfaceHandler &interface = *couplings[i].interface;
+          const std::vector<NodalTractions> &of_slaves = tractions[i];
           interface.visit_pairs_for_tangents(
+            [&](const unsigned int s) { return of_slaves[s].any(); },
             [&](const unsigned int       s,
                 const unsigned int       m,
                 const IntegrationPoints &points) {
               const auto &partners = couplings[i].local[s].partners;
-              if (!tractions[i][s].any() ||
-                  std::none_of(partners.begin(),
+              if (std::none_of(partners.begin(),
                                partners.end(),
                                [m](const auto &of) { return of.master == m; }))
                 return;
@@ -358,7 +359,7 @@ namespace mortise
                              interface.master_faces()[m],
                              master,
                              couplings[i].local[s],
-                             tractions[i][s]);
+                             of_slaves[s]);
               const ExpansionList all = functions(slave, master);
               assembler.add(all(), all(), of_pair(points), 1., false);
             });

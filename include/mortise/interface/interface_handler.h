@@ -86,11 +86,14 @@ namespace mortise
       clip(visitor, products());
     }
 
-    /// With fewer points. Pairs may be others, as their points decide.
+    using Choice = std::function<bool(unsigned int slave)>;
+
+    /// Those of chosen slave faces, with fewer points. Pairs may be others, as
+    /// their points decide.
     void
-    visit_pairs_for_tangents(const Visitor &visitor) const
+    visit_pairs_for_tangents(const Choice &choice, const Visitor &visitor) const
     {
-      clip(visitor, Products::of_flat_faces);
+      clip(visitor, Products::of_flat_faces, choice);
     }
 
     const std::string &
@@ -183,7 +186,9 @@ namespace mortise
     }
 
     Pass
-    clip(const Visitor &visitor, Products products) const;
+    clip(const Visitor &visitor,
+         Products       products,
+         const Choice  &choice = Choice()) const;
     /// Sums of all ranks. Collective.
     InterfaceReport
     report_of(const Pass &own) const;
