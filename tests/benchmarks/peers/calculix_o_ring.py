@@ -18,7 +18,7 @@ import spheres
 
 o = fit.arguments(elements="C3D20R", along=8, plate="8,8", kappa=1e3, penalty=1e3)
 quadratic = o.elements.startswith("C3D20")
-(ring, lower), (flat, upper), skin = o_ring.bodies(o.n, o.along, [int(k) for k in o.plate.split(",")], 2 if quadratic else 1, spheres.HEX20 if quadratic else spheres.CORNERS // 2)
+(ring, lower), (flat, upper), skin = o_ring.bodies(o.n, o.along, o.plate, 2 if quadratic else 1, spheres.HEX20 if quadratic else spheres.CORNERS // 2)
 points = np.concatenate([ring, flat])
 held = abs(points) < 1e-9
 top = points[:, 2] > o_ring.SECTION + o_ring.PLATE[2] - 1e-9

@@ -6,13 +6,13 @@
 
 Integral large-sliding contact brick by ray tracing without friction, an augmented Lagrangian with vector multipliers of the degree of the displacements on the outside of the inner ball; the
 law `log` is its Compressible_Neo_Hookean_Bonet. Multipliers hold single components on the planes of symmetry. tet: each hexahedron cut into six. --rule: order of integration on the interface."""
-import itertools
 import math
 
 import getfem as gf
 import numpy as np
 
 import fit
+import getfem_cells
 import spheres
 
 AUGMENT, RELEASE = 10 * fit.YOUNG, 0.2
@@ -27,15 +27,9 @@ reference = np.array(transformation.pts()).T
 
 def ball(n, m, start, end):
     """The mesh of fit.shells in this transformation's nodes; regions 1 to 3: planes of symmetry; 4, 5: inside, outside."""
-    corners = []
-    for order in itertools.permutations(range(3)):
-        v = np.zeros((4, 3))
-        for k, c in enumerate(order):
-            v[k + 1:, c] += 1
-        corners.append(v[0] + reference @ (v[1:] - v[0]))
-    cells = []
+    parts, cells = getfem_cells.parts(o.elements, reference), []
     for f, i, j, k in np.ndindex(3, n, n, m):
-        for part in [reference] if o.elements == "hex" else corners:
+        for part in parts:
             s, t = (np.tan(math.pi / 4 * (part[:, c] + a) / n) for c, a in ((0, i), (1, j)))
             r = (start + (end - start) * (part[:, 2] + k) / m) / np.sqrt(1 + s * s + t * t)
             cells.append(np.roll(np.stack([r, r * s, r * t], axis=1), f, axis=1))
@@ -56,26 +50,19 @@ def space(mesh, components):
     return result
 
 
-def integration(mesh, order):
-    if o.elements == "hex":
-        return gf.MeshIm(mesh, gf.Integ("IM_GAUSS_PARALLELEPIPED(3,%d)" % order))
-    simple = "IM_TETRAHEDRON(%d)" % next((q for q in (1, 2, 3, 5, 6, 8) if q >= order), 8)
-    return gf.MeshIm(mesh, gf.Integ(simple if order <= 8 else "IM_STRUCTURED_COMPOSITE(%s,%d)" % (simple, math.ceil(order / 8))))
-
-
 result = dict(code="GetFEM", element=o.elements, order=o.p, n=o.n, layers=o.layers, method="rule %d" % (o.rule or 2 * o.p + 2))
 try:
     meshes = [ball(o.n, o.m[0], *fit.INNER), ball(o.n + 1, o.m[1], *fit.OUTER)]
     model = gf.Model("real")
     model.add_initialized_data("law", [fit.LAMBDA, fit.MU])
-    fields, rules = [space(mesh, 3) for mesh in meshes], [integration(mesh, 2 * o.p + 2) for mesh in meshes]
+    fields, rules = [space(mesh, 3) for mesh in meshes], [getfem_cells.integration(mesh, o.elements, 2 * o.p + 2) for mesh in meshes]
     for k, (mesh, field, rule) in enumerate(zip(meshes, fields, rules), 1):
         model.add_fem_variable("u%d" % k, field)
         model.add_finite_strain_elasticity_brick(rule, "Compressible_Neo_Hookean_Bonet", "u%d" % k, "law")
         for c in range(3):
             model.add_filtered_fem_variable("h%d%d" % (k, c), space(mesh, 1), c + 1)
             model.add_linear_term(rule, "u%d(%d)*Test_h%d%d + h%d%d*Test_u%d(%d)" % (k, c + 1, k, c, k, c, k, c + 1), c + 1)
-    contact_rules = [integration(mesh, o.rule or 2 * o.p + 2) for mesh in meshes]
+    contact_rules = [getfem_cells.integration(mesh, o.elements, o.rule or 2 * o.p + 2) for mesh in meshes]
     model.add_filtered_fem_variable("l", space(meshes[0], 3), 5)
     model.add_initialized_data("r", [AUGMENT])
     model.add_initialized_data("f", [0.])
@@ -88,7 +75,7 @@ try:
     for body, (mesh, field, ends) in enumerate(zip(meshes, fields, (fit.INNER, fit.OUTER))):
         series = np.polynomial.Chebyshev.interpolate(lambda s, b=body: exact.displacement(b, s), 10, domain=ends).convert(kind=np.polynomial.Polynomial)
         right = "(%s)*Normalized(X)" % "+".join("(%.17g)*pow(Norm(X),%d)" % (c, d) for d, c in enumerate(series.coef))
-        square = [float(np.asarray(gf.asm_generic(integration(mesh, 2 * o.p + 6), 0, "Norm_sqr(%s)" % text, -1, "u", 0, field, model.variable("u%d" % (body + 1)))).ravel()[0]) for text in ("u-" + right, right)]
+        square = [float(np.asarray(gf.asm_generic(getfem_cells.integration(mesh, o.elements, 2 * o.p + 6), 0, "Norm_sqr(%s)" % text, -1, "u", 0, field, model.variable("u%d" % (body + 1)))).ravel()[0]) for text in ("u-" + right, right)]
         wrong, whole = wrong + square[0], whole + square[1]
     forces = [float(np.asarray(gf.asm_generic(rules[0], 0, "h1%d" % c, c + 1, model)).ravel()[0]) for c in range(3)]
     pressures = np.linalg.norm(np.asarray(model.variable("l")).reshape(-1, 3), axis=1) / (exact.p * (exact.c / fit.INNER[1])**2)

@@ -7,13 +7,11 @@
 Taylor-Hood elements (displacements of degree p, pressures of degree p - 1). Integral large-sliding contact brick by ray tracing without friction, an augmented Lagrangian with vector multipliers of the
 degree of the displacements on the skin of the ring; --augment: its parameter; --rule: order of integration there, 2 p + 2 unless given. tet: each hexahedron cut into six. --finer: equal steps in
 place of each of o_ring.py's. Each step begins with a plate that is moved as a whole."""
-import itertools
-import math
-
 import getfem as gf
 import numpy as np
 
 import fit
+import getfem_cells
 import o_ring
 import spheres
 
@@ -26,30 +24,10 @@ transformation = gf.GeoTrans("GT_%s(3,%d)" % (family, o.p))
 reference = np.array(transformation.pts()).T
 
 
-def parts():
-    """Nodes of a cell within a hexahedron."""
-    if o.elements == "hex":
-        return [reference]
-    result = []
-    for order in itertools.permutations(range(3)):
-        v = np.zeros((4, 3))
-        for k, c in enumerate(order):
-            v[k + 1:, c] += 1
-        result.append(v[0] + reference @ (v[1:] - v[0]))
-    return result
-
-
 def space(mesh, components, degree):
     result = gf.MeshFem(mesh, components)
     result.set_fem(gf.Fem("FEM_%s(3,%d)" % (family, degree)))
     return result
-
-
-def integration(mesh, order):
-    if o.elements == "hex":
-        return gf.MeshIm(mesh, gf.Integ("IM_GAUSS_PARALLELEPIPED(3,%d)" % order))
-    simple = "IM_TETRAHEDRON(%d)" % next((q for q in (1, 2, 3, 5, 6, 8) if q >= order), 8)
-    return gf.MeshIm(mesh, gf.Integ(simple if order <= 8 else "IM_STRUCTURED_COMPOSITE(%s,%d)" % (simple, math.ceil(order / 8))))
 
 
 def planes(points, body):
@@ -64,15 +42,15 @@ result = dict(code="GetFEM", element=o.elements, order=o.p, n=o.n, cells="%d alo
 forces, iterations, contact_rules, rules = [], 0, [], []
 try:
     meshes = [gf.Mesh("empty", 3) for _ in range(2)]
-    for part in parts():
-        for mesh, (points, cells) in zip(meshes, o_ring.bodies(o.n, o.along, [int(k) for k in o.plate.split(",")], 1, part)):
+    for part in getfem_cells.parts(o.elements, reference):
+        for mesh, (points, cells) in zip(meshes, o_ring.bodies(o.n, o.along, o.plate, 1, part)):
             mesh.add_convex(transformation, np.asfortranarray(np.transpose(points[cells], (2, 1, 0))))
     for k, mesh in enumerate(meshes, 1):
         for region, on in enumerate(planes(mesh.pts(), k - 1), 1):
             if on.any():
                 mesh.set_region(region, mesh.faces_from_pid(np.where(on)[0]))
-        rules.append(integration(mesh, 2 * o.p + 2))
-        contact_rules.append(integration(mesh, o.rule or 2 * o.p + 2))
+        rules.append(getfem_cells.integration(mesh, o.elements, 2 * o.p + 2))
+        contact_rules.append(getfem_cells.integration(mesh, o.elements, o.rule or 2 * o.p + 2))
         field = space(mesh, 3, o.p)
         model.add_fem_variable("u%d" % k, field)
         for c in range(3):
@@ -94,9 +72,8 @@ try:
     model.add_slave_contact_boundary_to_large_sliding_contact_brick(brick, contact_rules[0], 4, "u1", "l")
     model.add_master_contact_boundary_to_large_sliding_contact_brick(brick, contact_rules[1], 4, "u2")
     moved = 0.
-    for time in o_ring.TIMES:
-        for s in range(1, o.finer + 1):
-            target = -o_ring.SQUEEZE * (time - o_ring.TIMES[0] * (1 - s / o.finer))
+    for targets in o_ring.heights(o.finer):
+        for target in targets:
             guess = np.array(model.variable("u2"))
             guess[2::3] += target - moved
             model.set_variable("u2", guess)

@@ -8,6 +8,8 @@ forces: of the die on what holds it, per slice, along and across, at t = 1, 1.5 
 from it; ripple, the largest deviation of the force across from its mean."""
 import numpy as np
 
+import spheres
+
 WIDTH, MU, POISSON, SOFT, STIFF = 0.125, 0.3, 0.32, 1., 10.
 TIMES = [0.2 * k for k in range(1, 6)] + [1 + 0.05 * k for k in range(1, 21)]
 
@@ -17,18 +19,9 @@ def motion(t):
 
 
 def grid(counts, nodes, order, place):
-    index, points, cells = {}, [], []
-    for c in np.ndindex(*counts):
-        cell = []
-        for s in nodes:
-            p = place(*((np.array(c) + s / order) / counts))
-            key = tuple(np.round(np.array(p) * 1e8).astype(int))
-            if key not in index:
-                index[key] = len(points)
-                points.append(p)
-            cell.append(index[key])
-        cells.append(cell)
-    return np.array(points), np.array(cells)
+    points = spheres.Points()
+    cells = [[points.number(place(*((np.array(c) + s / order) / counts))) for s in nodes] for c in np.ndindex(*counts)]
+    return np.array(points.points), np.array(cells)
 
 
 def bodies(scale, order, nodes):

@@ -26,7 +26,7 @@ COMPONENTS = (KM.DISPLACEMENT_X, KM.DISPLACEMENT_Y, KM.DISPLACEMENT_Z)
 o = fit.arguments(p=1, type="ALMContactFrictionless", along=6, plate="6,6", kappa=1e3, finer=1)
 KM.Logger.GetDefaultOutput().SetSeverity(KM.Logger.Severity.WARNING)
 clock = spheres.Clock()
-(ring, lower), (flat, upper), skin = o_ring.bodies(o.n, o.along, [int(k) for k in o.plate.split(",")], 1, spheres.CORNERS // 2)
+(ring, lower), (flat, upper), skin = o_ring.bodies(o.n, o.along, o.plate, 1, spheres.CORNERS // 2)
 points = np.concatenate([ring, flat])
 cells = [lower, upper + len(ring)]
 held = np.argwhere(abs(points) < 1e-9)

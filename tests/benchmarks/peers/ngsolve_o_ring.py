@@ -4,7 +4,8 @@
     pip install ngsolve numpy scipy
     ngsolve_o_ring.py --p 2 --h 0.5 [--penalty 1e3] [--rule 5] [--tolerance 1e-4] [--finer 1]
 
-Netgen's tetrahedra, curved, of the size h, of the plate 2 h; their making, `mesh` in seconds, is left out of cpu_solve. Taylor-Hood elements with the bulk modulus 1e6, so that its Cholesky factorisation exists. ContactBoundary with the energy penalty mu/2 (overlap)^2 along the normal of the plate's underside at the deformed ring. --finer: equal steps in place of each."""
+Netgen's tetrahedra, curved, of the size h, of the plate 2 h; their making, `mesh` in seconds, is left out of cpu_solve. Taylor-Hood elements with the bulk modulus 1e6, so that
+its Cholesky factorisation exists. ContactBoundary with the energy penalty mu/2 (overlap)^2 along the normal of the plate's underside at the deformed ring. --finer: equal steps in place of each."""
 import netgen.occ as occ
 import ngsolve as ng
 
@@ -55,9 +56,8 @@ def solve(mesh, o, forces):
     mover.components[0].components[2].Set(1, definedon=mesh.Boundaries("top"))
     whole = ng.GridFunction(space)
     whole.components[2].Set(1, definedon=mesh.Materials("plate"))
-    for time in o_ring.TIMES:
-        for s in range(1, o.finer + 1):
-            target = -o_ring.SQUEEZE * (time - o_ring.TIMES[0] * (1 - s / o.finer))
+    for targets in o_ring.heights(o.finer):
+        for target in targets:
             found.components[0].vec.data += (target - moved) * whole.vec
             moved = target
             iterations += newton(a, lambda: touch.Update(found.components[0], bf=a, intorder=o.rule, maxdist=0.5), found, both.FreeDofs(a.condense), o.tolerance)

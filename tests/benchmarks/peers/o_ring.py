@@ -8,12 +8,14 @@ error: the largest deviation of the force on the plate from REFERENCE, over the 
 Hexahedra: half discs of 6 n^2 cells, each quarter of a square and two parts around it, times m along the ring."""
 import numpy as np
 
+import spheres
+
 RADIUS, SECTION, PLATE, MU, STIFF, POISSON, SQUEEZE = 4., 1., (2.5, 5.5, 0.3), 1., 1000., 0.3, 0.3
 TIMES = [0.2, 0.4, 0.6, 0.8, 1.0]
 REFERENCE = [0.8640, 2.1102, 3.7210, 5.7745, 8.4180]
 
 
-def half_disc(n):
+def half_disc():
     """Parts of the section, as (map of [0, 1]^2 into a quarter, whether its second coordinate ends at the skin, which quarter)."""
     side, corner = 0.5, 0.4
     arc = lambda angle: np.array([np.cos(angle), np.sin(angle)])  # noqa: E731
@@ -32,29 +34,21 @@ def half_disc(n):
 
 def collect(blocks, nodes, order):
     """Points and cells of blocks (counts, map of [0, 1]^3), each with its nodes, offsets 0..order; cells are turned over where their map is."""
-    index, points, cells = {}, [], []
+    points, cells = spheres.Points(), []
     for counts, place in blocks:
         e, c = 1e-4, np.array([0.5, 0.5, 0.5])
         slope = np.array([np.array(place(*(c + d))) - place(*(c - d)) for d in e * np.eye(3)])
         turned = np.linalg.det(slope) < 0
-        for k in np.ndindex(*counts):
-            cell = []
-            for s in nodes:
-                t = s[[1, 0, 2]] if turned else s
-                p = place(*((np.array(k) + t / order) / counts))
-                key = tuple(np.round(np.array(p) * 1e8).astype(int))
-                if key not in index:
-                    index[key] = len(points)
-                    points.append(p)
-                cell.append(index[key])
-            cells.append(cell)
-    return np.array(points), np.array(cells)
+        offsets = nodes[:, [1, 0, 2]] if turned else nodes
+        cells += [[points.number(place(*((np.array(k) + s / order) / counts))) for s in offsets] for k in np.ndindex(*counts)]
+    return np.array(points.points), np.array(cells)
 
 
 def bodies(n, m, plate, order, nodes):
-    """Points and cells of ring and plate, and the numbers of the cells whose last coordinate ends on the skin of the ring; plate: its counts along the radius and the ring."""
+    """Points and cells of ring and plate, and the numbers of the cells whose last coordinate ends on the skin of the ring; plate: its counts along the radius and the ring, as "6,4"."""
+    across, along = (int(k) for k in plate.split(","))
     blocks, skin, count = [], [], 0
-    for part, outside, mirror in half_disc(n):
+    for part, outside, mirror in half_disc():
         def place(a, b, c, part=part, mirror=mirror):
             x, z = part(a, c)
             x, angle = RADIUS + SECTION * mirror * x, np.pi / 2 * b
@@ -69,7 +63,12 @@ def bodies(n, m, plate, order, nodes):
         r, angle = PLATE[0] + (PLATE[1] - PLATE[0]) * a, np.pi / 2 * b
         return r * np.cos(angle), r * np.sin(angle), SECTION + PLATE[2] * c
 
-    return collect(blocks, nodes, order), collect([((plate[0], plate[1], 1), flat)], nodes, order), np.array(skin)
+    return collect(blocks, nodes, order), collect([((across, along, 1), flat)], nodes, order), np.array(skin)
+
+
+def heights(finer):
+    """Of the top of the plate over its start, for each of TIMES those of `finer` equal steps."""
+    return [[-SQUEEZE * (time - TIMES[0] * (1 - s / finer)) for s in range(1, finer + 1)] for time in TIMES]
 
 
 def measures(forces):

@@ -58,25 +58,32 @@ MIDDLES = np.array([(1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1
 HEX20 = np.concatenate([CORNERS, MIDDLES])  # the order of Abaqus, nodes as integers 0..2
 
 
+class Points:
+    """Points by number; those that are the same to 1e-8 have one."""
+
+    def __init__(self):
+        self.index, self.points = {}, []
+
+    def number(self, p):
+        key = tuple(np.round(np.array(p) * 1e8).astype(int))
+        if key not in self.index:
+            self.index[key] = len(self.points)
+            self.points.append(p)
+        return self.index[key]
+
+
 def mesh(n, m, order, nodes=None):
     """Points and cells (each with its nodes in the order of `nodes`, integers 0..order, by default all of `lattice`)."""
     nodes = lattice(order) if nodes is None else nodes
-    index, points, cells = {}, [], []
+    points, cells = Points(), []
     for patch in range(3):
         for i, j, k in np.ndindex(n, n, m):
             s, t = (np.tan(math.pi / 4 * (a + nodes[:, c] / order) / n) for c, a in ((0, i), (1, j)))
             direction = np.stack([s, t, 1 + 0 * s], axis=-1) / np.sqrt(1 + s**2 + t**2)[:, None]
             radius = INNER + (OUTER - INNER) * (k + nodes[:, 2] / order) / m
             x = np.roll(direction * radius[:, None], patch, axis=1)
-            cell = []
-            for p in x:
-                key = tuple(np.round(p * 1e8).astype(int))
-                if key not in index:
-                    index[key] = len(points)
-                    points.append(p)
-                cell.append(index[key])
-            cells.append(cell)
-    return np.array(points), np.array(cells)
+            cells.append([points.number(p) for p in x])
+    return np.array(points.points), np.array(cells)
 
 
 def inner_faces(n, m):
