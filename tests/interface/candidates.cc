@@ -64,14 +64,12 @@ namespace
     return scene;
   }
 
-  /// Outward, in the middle of the face itself.
+  /// Of the face itself, not of the mean normals of its vertices.
   Tensor<1, 3>
-  own_normal(const SurfaceFace &face)
+  normal_in_the_middle(const SurfaceFace &face)
   {
-    const Tensor<1, 3> area =
-      face.orientation *
-      cross_product_3d(face.frame.tangent[0], face.frame.tangent[1]);
-    return area / area.norm();
+    return face_normal(face,
+                       Point<2>(face.frame.center_xi, face.frame.center_xi));
   }
 
   /// A clipped loop far outside of the master is no overlap.
@@ -104,7 +102,8 @@ namespace
         double area = 0.;
         for (unsigned int m = 0; m < masters.size(); ++m)
           if (!std::binary_search(candidates.begin(), candidates.end(), m) &&
-              own_normal(slave) * own_normal(masters[m]) < -0.1)
+              normal_in_the_middle(slave) * normal_in_the_middle(masters[m]) <
+                -0.1)
             {
               const PairResult pair =
                 integrator.integrate(masters[m], 2, 2, points);

@@ -177,7 +177,7 @@ namespace mortise
       double              sagitta = 0., largest_coverage = 0.;
     };
 
-    /// Of displaced slaves in each iteration.
+    /// More where slaves are displaced, whose pairs change as they move.
     Products
     products() const
     {
