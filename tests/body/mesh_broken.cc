@@ -240,11 +240,11 @@ Physical Surface("low") = {5};
               mesh_text({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 2", "0 0 3"},
                         {face, first, "4 2 1 1 1 2 3 5", "4 2 1 1 1 2 3 6"})),
             "3 cells at one face, near (0, 0, 0)");
-    refused("prisms",
-            broken(
-              mesh_text({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 1", "0 1 1"},
-                        {face, "6 2 1 1 1 2 3 4 5 6"})),
-            "1 prisms");
+    refused("a wedge of negative volume beside a tetrahedron",
+            broken(mesh_text(
+              {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 1", "0 1 1", "0 0 -1"},
+              {"2 2 7 1 4 5 6", "6 2 1 1 4 5 6 1 2 3", "4 2 1 1 1 3 2 7"})),
+            "turned inside out (negative volume)");
     refused("surfaces only",
             broken(mesh_text(corners, {face})),
             "no volume elements");

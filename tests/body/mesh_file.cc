@@ -261,12 +261,13 @@ main(int argc, char **argv)
   refused("an old version",
           file("bad.msh", replaced(version_2, "2.2 0 8", "2.1 0 8")),
           "format version 2.1; allowed: 2.2 or 4.1");
-  refused("both shapes",
+  refused("a quadrilateral on one tetrahedron",
           file("bad.msh",
                replaced(version_2,
                         "6 5 2 3 1 2 3 6 5 8 9 12 11",
                         "6 4 2 3 1 2 3 6 9")),
-          "cells of two shapes");
+          "between the nodes 2, 6, 5, the first at (1, 0, 0), which is a face "
+          "of no cell");
   refused("no volume elements",
           file("bad.msh",
                replaced(replaced(replaced(version_2,

@@ -1,6 +1,7 @@
 // The curved geometry of second-order files is kept: a quadratic displacement
 // of a mesh is reproduced exactly by the mapping, in tetrahedra and hexahedra,
-// refined globally and locally, on all ranks.
+// refined globally and locally, and in tetrahedra that were cut from hexahedra,
+// wedges and pyramids, on all ranks.
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -24,34 +25,54 @@ using mortise::MeshParameters;
 
 namespace
 {
-  /// A cube, @p n hexahedra, or two triangles in place of a square, in each
-  /// direction, whose nodes were moved by x + bend(x).
+  enum class Shapes
+  {
+    hexahedra,
+    wedges,
+    tetrahedra
+  };
+
+  /// A cube: @p n hexahedra, or two triangles in place of a square, in each
+  /// direction.
   std::string
-  bent_cube(const bool                     hexahedra,
-            const bool                     serendipity,
-            const std::array<unsigned, 3> &n)
+  cube(const Shapes shapes, const std::array<unsigned, 3> &n)
   {
     const auto text = [&](const unsigned int d, const unsigned int more) {
       return std::to_string(n[d] + more);
     };
-    const std::string recombine = hexahedra ? "Recombine;" : "";
-    const std::string geometry =
-      std::string(R"(
+    return std::string(R"(
 Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Curve Loop(1) = {1, 2, 3, 4};
 Plane Surface(1) = {1};
-Transfinite Curve{1, 3} = )" +
-                  text(0, 1) + "; Transfinite Curve{2, 4} = " + text(1, 1) +
-                  R"(;
+Transfinite Curve{1, 3} = )") +
+           text(0, 1) + "; Transfinite Curve{2, 4} = " + text(1, 1) + R"(;
 Transfinite Surface{1};
-)") + (hexahedra ? "Recombine Surface{1};\n" : "") +
-      "core[] = Extrude{0, 0, 1}{ Surface{1}; Layers{" + text(2, 0) + "}; " +
-      recombine + R"(};
+)" + (shapes == Shapes::hexahedra ? "Recombine Surface{1};\n" : "") +
+           "core[] = Extrude{0, 0, 1}{ Surface{1}; Layers{" + text(2, 0) +
+           "}; " + (shapes == Shapes::tetrahedra ? "" : "Recombine;") + R"(};
 Physical Volume("cube") = {core[1]};
 Physical Surface("low") = {1};
 Physical Surface("high") = {core[0]};
 )";
+  }
+
+  /// A cube of hexahedra below, pyramids on them and tetrahedra above.
+  const std::string cube_with_pyramids = R"(
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 0.5}; Box(2) = {0, 0, 0.5, 1, 1, 0.5}; Coherence;
+Transfinite Curve{:} = 4;
+sides[] = Boundary{ Volume{1}; };
+Transfinite Surface{sides[]}; Recombine Surface{sides[]};
+Transfinite Volume{1};
+Physical Volume("cube") = {1, 2};
+Physical Surface("low") = {Surface In BoundingBox{-1, -1, -0.1, 2, 2, 0.1}};
+)";
+
+  /// A mesh of @p geometry whose nodes were moved by x + bend(x).
+  std::string
+  bent(const std::string &geometry, const bool serendipity)
+  {
     const std::string name =
       write_mesh("second_order", geometry, {2.2, false, 2, serendipity, false});
     // the nodes of version 2.2 stand one on a line: tag x y z
@@ -180,15 +201,18 @@ Physical Surface("high") = {core[0]};
   }
 
   void
-  check_shape(const std::string &shape, const std::string &file)
+  check_shape(const std::string &shape,
+              const std::string &file,
+              const std::string &cells = "auto")
   {
     MeshParameters q = file_parameters(file);
+    q.cells          = cells;
     check(shape, q, exact_volume());
     q.refinements = 1;
     check(shape + ", refined", q, exact_volume());
     q.refinements = 2;
     check(shape + ", refined twice", q, exact_volume());
-    if (shape != "tetrahedra")
+    if (shape.find(" x ") == 1)
       {
         q.refinements = 1;
         q.refine_near = "0, 0, 0, 0.1, 2";
@@ -207,10 +231,19 @@ main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   // p4est permutes coarse cells, in another way for each of these
-  check_shape("3 x 3 x 1 hexahedra of 27 nodes",
-              bent_cube(true, false, {{3, 3, 1}}));
+  const std::string complete =
+    bent(cube(Shapes::hexahedra, {{3, 3, 1}}), false);
+  check_shape("3 x 3 x 1 hexahedra of 27 nodes", complete);
+  check_shape("hexahedra of 27 nodes, cut", complete, "tetrahedra");
   // the map is of degree 2 in all, so that serendipity has it, too
-  check_shape("2 x 3 x 4 hexahedra of 20 nodes",
-              bent_cube(true, true, {{2, 3, 4}}));
-  check_shape("tetrahedra", bent_cube(false, false, {{2, 3, 2}}));
+  const std::string serendipity =
+    bent(cube(Shapes::hexahedra, {{2, 3, 4}}), true);
+  check_shape("2 x 3 x 4 hexahedra of 20 nodes", serendipity);
+  check_shape("hexahedra of 20 nodes, cut", serendipity, "tetrahedra");
+  check_shape("tetrahedra", bent(cube(Shapes::tetrahedra, {{2, 3, 2}}), false));
+  check_shape("wedges of 18 nodes",
+              bent(cube(Shapes::wedges, {{2, 3, 2}}), false));
+  check_shape("wedges of 15 nodes",
+              bent(cube(Shapes::wedges, {{3, 2, 2}}), true));
+  check_shape("pyramids of 13 nodes", bent(cube_with_pyramids, true));
 }

@@ -1,4 +1,12 @@
+#include <deal.II/base/utilities.h>
+
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
 #include <gmsh.h>
+#include <mortise/base/child_process.h>
 #include <mortise/body/mesh/gmsh_model.h>
 
 #include <algorithm>
@@ -261,35 +269,53 @@ namespace mortise
     return describe(type);
   }
 
+  namespace
+  {
+    /// Problem (none: empty) and mesh.
+    using Answer = std::pair<std::string, GmshModel>;
+
+    Answer
+    try_to_mesh(const std::string &file_name,
+                const double       mesh_size,
+                const SizeField   *sizes)
+    {
+      const Session session(mesh_size);
+      Answer        answer;
+      try
+        {
+          answer.second = mesh(file_name, mesh_size, sizes);
+        }
+      catch (const std::exception &error)
+        {
+          answer.first = error.what();
+        }
+      catch (const std::string &error) // of the library
+        {
+          answer.first = error;
+        }
+      catch (...)
+        {
+          answer.first = "unknown";
+        }
+      const std::string first = session.error();
+      if (!first.empty())
+        answer.first = first;
+      return answer;
+    }
+  } // namespace
+
   GmshModel
   mesh_geometry(const std::string &file_name,
                 const double       mesh_size,
                 const SizeField   *sizes)
   {
-    const Session session(mesh_size);
-    std::string   problem;
-    GmshModel     model;
-    try
-      {
-        model = mesh(file_name, mesh_size, sizes);
-      }
-    catch (const std::exception &error)
-      {
-        problem = error.what();
-      }
-    catch (const std::string &error) // of the library
-      {
-        problem = error;
-      }
-    catch (...)
-      {
-        problem = "unknown";
-      }
-    const std::string first = session.error();
-    if (!first.empty())
-      problem = first;
-    if (!problem.empty())
-      throw std::runtime_error(problem);
-    return model;
+    Answer answer = Utilities::unpack<Answer>(
+      in_child_process([&] {
+        return Utilities::pack(try_to_mesh(file_name, mesh_size, sizes), false);
+      }),
+      false);
+    if (!answer.first.empty())
+      throw std::runtime_error(answer.first);
+    return std::move(answer.second);
   }
 } // namespace mortise

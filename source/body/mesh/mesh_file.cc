@@ -109,6 +109,7 @@ namespace mortise
       std::vector<CellData<3>> cells;
       std::vector<CellData<2>> faces;
       MeshNames                names;
+      std::string              remark;
       unsigned int             nodes_per_cell = 0;
 
       template <typename Archive>
@@ -116,7 +117,7 @@ namespace mortise
       serialize(Archive &archive, const unsigned int)
       {
         archive &vertices &nodes &cells &faces &names.boundaries &names
-          .materials &nodes_per_cell;
+          .materials &remark &nodes_per_cell;
       }
     };
 
@@ -148,6 +149,7 @@ namespace mortise
       package.cells    = mesh.cells;
       package.faces    = mesh.faces.boundary_quads;
       package.names    = mesh.names;
+      package.remark   = mesh.remark;
       if (mesh.geometry != nullptr)
         {
           package.nodes_per_cell = mesh.geometry->nodes_per_cell;
@@ -159,6 +161,7 @@ namespace mortise
       result.cells                = package.cells;
       result.faces.boundary_quads = package.faces;
       result.names                = package.names;
+      result.remark               = package.remark;
       if (package.nodes_per_cell > 0)
         result.geometry =
           std::make_shared<CoarseGeometry>(package.nodes_per_cell,

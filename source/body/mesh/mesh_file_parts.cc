@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/body/mesh/cell_cutting.h>
 #include <mortise/body/mesh/vertex_order.h>
 
 #include <algorithm>
@@ -26,7 +27,7 @@ namespace mortise
           case 5:
             return "pyramids";
           case 6:
-            return "prisms";
+            return "wedges";
           case 8:
             return "hexahedra";
           default:
@@ -78,16 +79,16 @@ namespace mortise
       if (blocks.empty())
         fail(
           parameters.part.empty() ?
-            "holds no volume elements; allowed: a mesh of tetrahedra or hexahedra (is there a "
+            "holds no volume elements; allowed: a mesh of volume elements (is there a "
             "physical volume, or were all elements saved; was a geometry meshed in 3D?)" :
             "holds no cells of Part = " + shortened(parameters.part));
       return blocks;
     }
 
-    /// One shape that a body can have, one order.
-    void
+    /// One order; shapes that can become cells of a body. Are they to be cut
+    /// into tetrahedra?
+    bool
     check_shapes(const std::vector<const GmshElements *> &blocks,
-                 const GmshModel                         &model,
                  const MeshParameters                    &parameters,
                  const FileError                         &fail)
     {
@@ -96,10 +97,10 @@ namespace mortise
       for (const GmshElements *block : blocks)
         {
           const std::string shape = shape_name(*block);
-          if (shape != "tetrahedra" && shape != "hexahedra")
-            fail("holds " + std::to_string(block->size()) + " " + shape +
-                 "; allowed: tetrahedra or hexahedra (in gmsh: hexahedra by "
-                 "recombined, transfinite or extruded volumes)");
+          if (shape == block->type)
+            fail("holds " + std::to_string(block->size()) +
+                 " elements of type " + shape +
+                 "; allowed: tetrahedra, pyramids, wedges and hexahedra");
           if (block->order > 2)
             fail("holds cells of order " + std::to_string(block->order) + " (" +
                  block->type +
@@ -108,17 +109,31 @@ namespace mortise
           shapes.insert(shape);
           orders.insert(block->order);
         }
-      if (shapes.size() > 1)
-        fail("holds " + list_parts(model) +
-             ": cells of two shapes; allowed: one shape in a body, chosen by " +
-             (parameters.part.empty() ? "Part = one of these names" :
-                                        "another Part"));
       if (orders.size() > 1)
         fail(
           "holds cells of first and of second order in one body; allowed: one order");
-      if (parameters.cells != "auto" && *shapes.begin() != parameters.cells)
-        fail("holds " + *shapes.begin() + ", but Cells = " + parameters.cells +
-             "; allowed: " + *shapes.begin() + ", or auto");
+      const bool hexahedra = shapes == std::set<std::string>{"hexahedra"};
+      if (parameters.cells == "hexahedra" && !hexahedra)
+        fail(
+          "holds " +
+          join_names(std::vector<std::string>(shapes.begin(), shapes.end())) +
+          ", but Cells = hexahedra; allowed: auto or tetrahedra, which cut "
+          "what is no tetrahedron, or a Part of hexahedra alone");
+      return shapes != std::set<std::string>{"tetrahedra"} &&
+             !(hexahedra && parameters.cells != "tetrahedra");
+    }
+
+    /// "8 pyramids, 30 wedges".
+    std::string
+    count_cells(const std::vector<const GmshElements *> &blocks)
+    {
+      std::map<std::string, std::size_t> numbers;
+      for (const GmshElements *block : blocks)
+        numbers[shape_name(*block)] += block->size();
+      std::vector<std::string> texts;
+      for (const auto &[shape, n] : numbers)
+        texts.push_back(std::to_string(n) + " " + shape);
+      return join_names(texts);
     }
 
     /// Where the nodes of gmsh's element are in a cell of ours.
@@ -267,7 +282,16 @@ namespace mortise
               const FileError      &fail)
   {
     const auto blocks = selected_blocks(model, parameters, fail);
-    check_shapes(blocks, model, parameters, fail);
+    if (check_shapes(blocks, parameters, fail))
+      {
+        MeshParameters of_tetrahedra = parameters;
+        of_tetrahedra.cells          = "auto";
+        CoarseMesh mesh =
+          select_part(cut_into_tetrahedra(model), of_tetrahedra, fail);
+        mesh.remark = count_cells(blocks) + " are cut into " +
+                      std::to_string(mesh.cells.size()) + " tetrahedra";
+        return mesh;
+      }
     CoarseMesh            mesh;
     std::vector<Point<3>> curved_nodes;
     for (const GmshElements *block : blocks)

@@ -222,6 +222,7 @@ namespace mortise
     mesh.names      = coarse.names;
     mesh.tetrahedra = is_tetrahedral(coarse);
     mesh.geometry   = coarse.geometry;
+    mesh.remark     = coarse.remark;
     mesh.curved     = coarse.manifold != nullptr || !coarse.shapes.empty() ||
                   coarse.geometry != nullptr;
     std::set<types::boundary_id> balanced;

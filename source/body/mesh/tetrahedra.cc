@@ -6,12 +6,13 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
+#include <mortise/body/mesh/cell_cutting.h>
 #include <mortise/body/mesh/curved_boundaries.h>
 #include <mortise/body/mesh/partition.h>
 #include <mortise/body/mesh/tetrahedra.h>
 #include <mortise/body/mesh/vertex_order.h>
 
-#include <algorithm>
+#include <utility>
 
 namespace mortise
 {
@@ -19,44 +20,14 @@ namespace mortise
 
   namespace
   {
-    using Triangle = std::array<unsigned int, 3>;
-
-    /// @p quad: vertices in deal.II's order.
-    std::array<Triangle, 2>
-    cut_quadrilateral(const std::array<unsigned int, 4> &quad)
+    /// Numbers of the vertices in gmsh's order, which goes around faces.
+    std::vector<unsigned int>
+    around(const std::vector<unsigned int> &vertices)
     {
-      std::array<unsigned int, 4> around = {
-        {quad[0], quad[1], quad[3], quad[2]}};
-      std::rotate(around.begin(),
-                  std::min_element(around.begin(), around.end()),
-                  around.end());
-      return {{{{around[0], around[1], around[2]}},
-               {{around[0], around[2], around[3]}}}};
-    }
-
-    void
-    cut_hexahedron(const CellData<3>        &hexahedron,
-                   std::vector<CellData<3>> &cells)
-    {
-      const auto        &vertices = hexahedron.vertices;
-      const unsigned int lowest =
-        *std::min_element(vertices.begin(), vertices.end());
-      for (const unsigned int f : GeometryInfo<3>::face_indices())
-        {
-          std::array<unsigned int, 4> face;
-          for (unsigned int v = 0; v < 4; ++v)
-            face[v] = vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-          if (std::find(face.begin(), face.end(), lowest) == face.end())
-            for (const Triangle &base : cut_quadrilateral(face))
-              {
-                CellData<3> cell(4);
-                cell.vertices = {lowest, base[0], base[1], base[2]};
-                if (f % 2 == 0) // seen from inside, deal.II's order goes round
-                  std::swap(cell.vertices[2], cell.vertices[3]);
-                cell.material_id = hexahedron.material_id;
-                cells.push_back(cell);
-              }
-        }
+      std::vector<unsigned int> result = vertices;
+      for (std::size_t v = 2; v < result.size(); v += 4)
+        std::swap(result[v], result[v + 1]);
+      return result;
     }
   } // namespace
 
@@ -64,22 +35,34 @@ namespace mortise
   cut_into_tetrahedra(CoarseMesh mesh)
   {
     std::vector<CellData<3>> cells;
-    for (const CellData<3> &cell : mesh.cells)
-      cut_hexahedron(cell, cells);
+    for (const CellData<3> &hexahedron : mesh.cells)
+      {
+        const std::vector<unsigned int> vertices = around(hexahedron.vertices);
+        for (const auto &part : cut_cell(vertices))
+          {
+            CellData<3> cell(4);
+            for (unsigned int v = 0; v < 4; ++v)
+              cell.vertices[v] = vertices[part[v]];
+            cell.material_id = hexahedron.material_id;
+            cells.push_back(cell);
+          }
+      }
     mesh.cells.swap(cells);
 
     std::vector<CellData<2>> triangles;
     for (const CellData<2> &quad : mesh.faces.boundary_quads)
-      for (const Triangle &part : cut_quadrilateral({{quad.vertices[0],
-                                                      quad.vertices[1],
-                                                      quad.vertices[2],
-                                                      quad.vertices[3]}}))
-        {
-          CellData<2> triangle(3);
-          std::copy(part.begin(), part.end(), triangle.vertices.begin());
-          triangle.boundary_id = quad.boundary_id;
-          triangles.push_back(triangle);
-        }
+      {
+        const std::vector<unsigned int> vertices = around(quad.vertices);
+        for (const auto &part : cut_quadrilateral(
+               {{vertices[0], vertices[1], vertices[2], vertices[3]}}))
+          {
+            CellData<2> triangle(3);
+            for (unsigned int v = 0; v < 3; ++v)
+              triangle.vertices[v] = vertices[part[v]];
+            triangle.boundary_id = quad.boundary_id;
+            triangles.push_back(triangle);
+          }
+      }
     mesh.faces.boundary_quads.swap(triangles);
     mesh.faces.boundary_lines.clear();
     return mesh;

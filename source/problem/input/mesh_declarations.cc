@@ -46,7 +46,8 @@ namespace mortise
       section.add(
         "Cells",
         mesh.cells,
-        "Shape of the cells. auto: that of the file; hexahedra from generators.",
+        "Shape of the cells. auto: that of a file of hexahedra or tetrahedra, else tetrahedra into which pyramids, wedges and "
+        "hexahedra of a file are cut; hexahedra from generators. tetrahedra: everything is cut.",
         Allowed::one_of({"auto", "hexahedra", "tetrahedra"}));
       section.add(
         "Extent",

@@ -117,6 +117,8 @@ namespace mortise
         bodies.push_back(
           std::make_unique<Body>(body.name, b, materials(parameters)[b]));
         create_mesh(run, nullptr, *bodies[b]);
+        if (!bodies[b]->mesh.remark.empty())
+          run.log.line("body " + body.name + ": " + bodies[b]->mesh.remark);
         check_resolution(run, *bodies[b]);
         n_cells += bodies[b]->triangulation().n_global_active_cells();
         boundary_names.emplace_back();

@@ -35,6 +35,8 @@ namespace mortise
     /// Curved geometry of second-order cells, moved like the vertices; none:
     /// the cells are of first order.
     std::shared_ptr<const CoarseGeometry> geometry;
+
+    std::string remark; ///< what became of the cells of a file; empty: nothing
   };
 
   /// The body described by @p parameters (any source but file), vertices already moved.

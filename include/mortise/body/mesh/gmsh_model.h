@@ -1,5 +1,6 @@
 // Meshes of gmsh as plain data: nodes, elements, names of physical groups; the
-// only use of the gmsh library, which is open only while a geometry is meshed.
+// only use of the gmsh library. It meshes in a process of its own: what it
+// keeps from one mesh makes it crash at the next (4.8, pyramids).
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -36,6 +37,14 @@ namespace mortise
     {
       return nodes.size() / reference.size();
     }
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &groups &dimension &n_vertices &order &type &reference &nodes
+        &tags;
+    }
   };
 
   struct GmshModel
@@ -45,6 +54,13 @@ namespace mortise
     std::vector<GmshElements>     elements;      ///< surfaces, then volumes
     std::map<int, std::string>    surface_names; ///< of physical groups by tag;
     std::map<int, std::string>    volume_names;  ///< unnamed: the tag as text
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &nodes &node_tags &elements &surface_names &volume_names;
+    }
   };
 
   /// Does @p file_name end like a geometry that gmsh can mesh (.geo, .step,
@@ -61,7 +77,7 @@ namespace mortise
   /// is positive, and that number for the constant mesh_size of a .geo file,
   /// and of at most @p sizes if it is not null. Surfaces and volumes of a .step
   /// or .brep file are physical groups of their own. Throws std::runtime_error
-  /// with what gmsh says.
+  /// with what gmsh says, or that it crashed.
   GmshModel
   mesh_geometry(const std::string &file_name,
                 double             mesh_size,

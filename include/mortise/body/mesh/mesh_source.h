@@ -113,6 +113,9 @@ namespace mortise
     /// Of second-order files: what the mapping takes its points from.
     std::shared_ptr<const CoarseGeometry> geometry;
 
+    /// What became of the cells of a file, for the log; empty: nothing.
+    std::string remark;
+
     /// Of hexahedra from generators: the vertices of the coarse mesh.
     std::vector<LatticeBlock> lattice;
   };

@@ -11,10 +11,7 @@
 
 namespace mortise
 {
-  /// Cut each hexahedron into six tetrahedra around its vertex of lowest
-  /// number, each quadrilateral by the diagonal through its lowest vertex, so
-  /// that neighbours fit. Source: Dompierre, Labbe, Vallet, Camarero, How to
-  /// subdivide pyramids, prisms and hexahedra into tetrahedra (1999).
+  /// Cut each hexahedron into six tetrahedra (cell_cutting.h).
   CoarseMesh
   cut_into_tetrahedra(CoarseMesh hexahedra);
 

@@ -1,0 +1,19 @@
+// Wedges of second order: an unstructured square that is extruded.
+DefineConstant[ mesh_size = 0.3 ];
+Point(1) = {0, 0, 2, mesh_size};
+Point(2) = {1, 0, 2, mesh_size};
+Point(3) = {1, 1, 2, mesh_size};
+Point(4) = {0, 1, 2, mesh_size};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+body[] = Extrude{0, 0, 1}{ Surface{1}; Layers{2}; Recombine; };
+Mesh.ElementOrder = 2;
+Physical Volume("body") = {body[1]};
+Physical Surface("zmin") = {1};
+Physical Surface("zmax") = {body[0]};
+Physical Surface("ymin") = {body[2]};
+Physical Surface("xmin") = {body[5]};
