@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
@@ -128,19 +129,29 @@ namespace mortise
       return result;
     }
 
-    /// A CAD file has no physical groups: every surface and volume is one.
-    void
-    group_entities()
+    /// Where there are no physical groups every entity is one, volumes with the
+    /// name that a CAD file gives them. False: there are groups.
+    bool
+    group_entities(const int dimension)
     {
-      for (const int dimension : {2, 3})
+      gmsh::vectorpair entities, groups;
+      gmsh::model::getPhysicalGroups(groups, dimension);
+      if (!groups.empty())
+        return false;
+      gmsh::model::getEntities(entities, dimension);
+      std::set<std::string> known;
+      for (const auto &entity : entities)
         {
-          gmsh::vectorpair entities;
-          gmsh::model::getEntities(entities, dimension);
-          for (const auto &entity : entities)
-            gmsh::model::addPhysicalGroup(dimension,
-                                          {entity.second},
-                                          entity.second);
+          gmsh::model::addPhysicalGroup(dimension,
+                                        {entity.second},
+                                        entity.second);
+          std::string name; // "Shapes/assembly/part"
+          gmsh::model::getEntityName(dimension, entity.second, name);
+          name = name.substr(name.rfind('/') + 1);
+          if (dimension == 3 && !name.empty() && known.insert(name).second)
+            gmsh::model::setPhysicalName(dimension, entity.second, name);
         }
+      return true;
     }
 
     /// Nodes of @p model and the place of each tag.
@@ -214,8 +225,9 @@ namespace mortise
          const SizeField   *sizes)
     {
       gmsh::open(file_name);
-      if (is_cad_file(file_name))
-        group_entities();
+      GmshModel model;
+      model.surfaces_of_geometry = group_entities(2);
+      group_entities(3);
       if (mesh_size > 0.)
         gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
       if (sizes != nullptr)
@@ -246,7 +258,6 @@ namespace mortise
           gmsh::model::mesh::setSizeCallback(least);
         }
       gmsh::model::mesh::generate(3);
-      GmshModel model;
       model.surface_names                   = names(2);
       model.volume_names                    = names(3);
       const std::vector<unsigned int> place = read_nodes(model);

@@ -6,6 +6,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/body/mesh/boundary_selection.h>
 #include <mortise/body/mesh/curved_boundaries.h>
 #include <mortise/body/mesh/mesh_file.h>
 
@@ -87,16 +88,40 @@ namespace mortise
       return {};
     }
 
+    /// A body that nothing can refer to is not what anybody wants.
+    void
+    check_names(const CoarseMesh &mesh,
+                const GmshModel  &model,
+                const FileError  &fail)
+    {
+      if (mesh.names.boundaries.empty())
+        fail(
+          "names no boundary" +
+          std::string(
+            model.surface_names.empty() ?
+              "" :
+              " of this part: none of its faces is in a physical surface of "
+              "the file") +
+          "; allowed: a mesh with physical surfaces, by whose names (or tags) a scene "
+          "refers to boundaries, as in gmsh's Physical Surface(\"name\") = {...}; or "
+          "Boundaries = name: plane z = 0; ..., which names faces by where they are");
+    }
+
     CoarseMesh
     read_part(const MeshParameters &parameters, const std::string &where)
     {
       const FileError fail = [&](const std::string &what) {
         throw InputError(file_problem(where, parameters.file, what));
       };
-      CoarseMesh mesh =
-        select_part(read_model(parameters, where), parameters, fail);
+      const GmshModel model = read_model(parameters, where);
+      CoarseMesh      mesh  = select_part(model, parameters, fail);
       check_size(mesh, fail);
       check_volumes(mesh, fail);
+      select_boundaries(mesh,
+                        parameters.boundaries,
+                        model.surfaces_of_geometry,
+                        where);
+      check_names(mesh, model, fail);
       check_coinciding_nodes(mesh, fail);
       sort_cells(mesh);
       return mesh;
@@ -211,6 +236,7 @@ namespace mortise
         where,
         file,
         "has a name of no known format; allowed: .msh, .geo, .step, .stp, .brep"));
+    parse_boundaries(parameters.boundaries, where);
     const double size = parameters.mesh_size;
     if (!(size >= 0.) || !std::isfinite(size) ||
         (size > 0. && is_mesh_file(file)))

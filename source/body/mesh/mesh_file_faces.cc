@@ -219,15 +219,5 @@ namespace mortise
           mesh.names.boundaries.emplace(name, group).first->second;
         mesh.faces.boundary_quads.push_back(data);
       }
-    if (mesh.names.boundaries.empty())
-      fail(
-        "names no boundary" +
-        std::string(
-          model.surface_names.empty() ?
-            "" :
-            " of this part: none of its faces is in a physical surface of "
-            "the file") +
-        "; allowed: a mesh with physical surfaces, by whose names (or tags) a scene "
-        "refers to boundaries, as in gmsh's Physical Surface(\"name\") = {...};");
   }
 } // namespace mortise

@@ -184,6 +184,7 @@ namespace mortise
       const std::pair<std::string, std::string> given[] = {
         {"File", q.file},
         {"Part", q.part},
+        {"Boundaries", q.boundaries},
         {"Curved boundaries", q.curved_boundaries},
         {"Mesh size", q.mesh_size == 0. ? "" : list<double>({q.mesh_size})}};
       for (const auto &[name, value] : given)

@@ -26,6 +26,15 @@ namespace mortise
         "mesh_size = ... ] [length]. 0: as the geometry specifies.",
         {"0 or a positive number"});
       section.add(
+        "Boundaries",
+        mesh.boundaries,
+        "Names for boundaries of a file, chosen by place and shape, before Rotate and Translate; they take their faces from the "
+        "boundaries that the file names. plane: faces in it; box: faces within it; cylinder, sphere, free: faces of a geometry, or "
+        "of a mesh those that meet smoothly, of that shape; near: the nearest of them, with what goes on on the same surface; faces: "
+        "by the numbers of mortise --boundaries FILE; named: boundaries of the file [lengths].",
+        {"\"name: plane x = 1; name: plane through x, y, z normal nx, ny, nz; name: box x0, y0, z0, x1, y1, z1; name: cylinder "
+         "[radius r] [near x, y, z]; name: sphere ...; name: free ...; name: faces 7, 9; name: named A, B; name: ... and ...\""});
+      section.add(
         "Curved boundaries",
         mesh.curved_boundaries,
         "True shapes of boundaries of a file of first order, which refined cells and cells "

@@ -55,11 +55,15 @@ namespace mortise
     std::map<int, std::string>    surface_names; ///< of physical groups by tag;
     std::map<int, std::string>    volume_names;  ///< unnamed: the tag as text
 
+    /// The groups of surfaces are those of a geometry, each on its own.
+    bool surfaces_of_geometry = false;
+
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &nodes &node_tags &elements &surface_names &volume_names;
+      archive &nodes &node_tags &elements &surface_names &volume_names
+        &surfaces_of_geometry;
     }
   };
 

@@ -54,6 +54,7 @@ namespace mortise
     std::string file;
     std::string part;
     double      mesh_size = 0.;
+    std::string boundaries; ///< see boundary_selection.h
     std::string curved_boundaries;
     std::string directory; ///< where a relative File may be, too
     std::shared_ptr<const SizeField>
