@@ -141,8 +141,8 @@ namespace mortise
     Vector moved(x.displacement);
     moved -= load->prescribed_at_nodes;
     system.constraint.vmult_free(r.multiplier, moved);
-    r.multiplier.sadd(-1., 1., load->rhs.multiplier);
     system.subtract_spring_opening(r.multiplier, x.multiplier);
+    r.multiplier.sadd(-1., 1., load->rhs.multiplier);
   }
 
   bool
