@@ -139,7 +139,8 @@ namespace mortise
         "The solver converged, but the numbers of the scene are too large or too small to "
         "compute with: " +
         not_finite + "; allowed: results whose squares are finite. Check " +
-        "lengths, moduli, loads and exact solution, or take other units");
+        "lengths, moduli, loads and exact solution, or take other units; a cell of finite strain that turns "
+        "inside out between its points of integration has no stress there: take smaller ones");
     return result;
   }
 

@@ -61,6 +61,8 @@ namespace
          [&](StepSummary &s) { s.bodies[0].displacement_max->value = nan; }},
         {"body block, largest von Mises stress = inf",
          [&](StepSummary &s) { s.bodies[0].von_mises_max->value = inf; }},
+        {"body block, averaged von Mises stress = nan",
+         [&](StepSummary &s) { s.bodies[0].von_mises_max->averaged = nan; }},
         {"L2 error of the displacement = inf",
          [&](StepSummary &s) { s.errors->displacement_l2 = inf; }},
         {"H1 error of the displacement = inf",

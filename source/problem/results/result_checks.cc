@@ -68,8 +68,13 @@ namespace mortise
           finder.look(name + "largest displacement",
                       body.displacement_max->value);
         if (body.von_mises_max)
-          finder.look(name + "largest von Mises stress",
-                      body.von_mises_max->value);
+          {
+            finder.look(name + "largest von Mises stress",
+                        body.von_mises_max->value);
+            finder.look(name + "averaged von Mises stress",
+                        body.von_mises_max->averaged);
+            finder.look(name + "jump of the stress", body.von_mises_max->jump);
+          }
       }
     for (const InterfaceSummary &interface : step.interfaces)
       {
