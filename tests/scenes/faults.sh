@@ -154,6 +154,13 @@ long=("${run[@]}" --set 'Body lower/Mesh/Subdivisions=20,20,20' --set 'Body uppe
 on 1 bash -c 'ulimit -v 1000000; exec "$@"' - "${long[@]}"
 verdict "a scene too large" '[ $code -eq 4 ]' 'says 1 "not enough memory for this scene.*ulimit -v"'
 
+# gmsh meshes with threads of its own, in which nobody catches what memory that runs out throws
+for ranks in 1 2; do
+  fresh
+  on $ranks bash -c 'ulimit -v 1000000; exec "$@"' - "$mortise" --output "$out" "$prm/hertz_solid.prm" --set 'Body ball/Mesh/Mesh size=1e-7'
+  verdict "a mesh too large for gmsh, $ranks ranks" '[ $code -eq 4 ]' 'says 1 "not enough memory for this scene"' '[ $(wc -l <<<"$message") -eq 1 ]' none
+done
+
 # mpirun gives ranks a second to end
 unset OMPI_MCA_odls_base_sigkill_timeout
 
