@@ -63,7 +63,7 @@ class Campaign:
         """Validate a scene, run it if it is valid and may be run; what is wrong, or None."""
         output = self.path("results")
         arguments = ["--output", output, file]
-        result = self.once(["--validate"] + arguments, batch, 20.)
+        result = self.once(["--validate"] + arguments, batch, 10.)
         wrong = runner.what_is_wrong(result, output, validates=True)
         if wrong is None and result.code == 0 and runs:
             result = self.once(arguments, batch, self.options.limit)
@@ -167,7 +167,7 @@ class Campaign:
                 if other and other != kind and other.startswith(("exit code", "sanitizer")):
                     print("draw %d: on the way, parts %s: %s" % (number, some, other), flush=True)
                 return other == kind
-            parts = minimise.smallest(parts, fails, 3 if kind in ("slow", "deaf") else 60)
+            parts = minimise.smallest(parts, fails, 1 if kind in ("slow", "deaf") else 60)
         again = attempt(parts, False)
         if again is None:
             self.in_batch_only.append(number)

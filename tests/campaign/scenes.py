@@ -105,6 +105,8 @@ def size(lines):
                 total += cells * 8. ** min(abs(numbers[0]), 30.)
             else:
                 degree = max(degree, min(abs(numbers[0]), 9.))
+        if found and found.group(2) == "Mesh size" and any(0. < abs(float(n)) < 0.05 for n in NUMBER.findall(found.group(4))):
+            total += 2 * LARGEST
         if found and found.group(2) in ("Degree near", "Degree by region", "Refine near"):
             for n in NUMBER.findall(found.group(4)):
                 if abs(float(n)) > 3:
