@@ -235,14 +235,19 @@ namespace mortise
   to_json(const Summary &summary)
   {
     Json json;
-    json["program"] = {{"name", summary.program.name},
-                       {"version", summary.program.version},
-                       {"dealii", summary.program.dealii},
-                       {"ranks", summary.program.ranks},
-                       {"build_type", summary.program.build_type}};
-    json["title"]   = summary.title;
-    json["status"]  = summary.status;
-    json["steps"]   = Json::array();
+    json["program"]    = {{"name", summary.program.name},
+                          {"version", summary.program.version},
+                          {"dealii", summary.program.dealii},
+                          {"ranks", summary.program.ranks},
+                          {"build_type", summary.program.build_type}};
+    json["title"]      = summary.title;
+    json["status"]     = summary.status;
+    json["file"]       = summary.file;
+    json["parameters"] = Json::object();
+    for (const auto &[path, value] : summary.parameters)
+      json["parameters"][path] = value; // the last of the same counts
+    json["warnings"] = summary.warnings;
+    json["steps"]    = Json::array();
     for (StepSummary step : summary.steps)
       json["steps"].push_back(Writer::json_of(step));
     json["timings_s"] = Json::object();

@@ -48,8 +48,14 @@ namespace mortise
   void
   RunOutput::write_summary(Summary &summary)
   {
-    summary.timings = run.timers.walls(run.comm);
-    summary.memory  = peak_memory_mib(run.comm);
+    summary.file = run.parameters.file;
+    summary.parameters.clear();
+    for (const Assignment &a : run.parameters.assignments)
+      if (!a.opens_section())
+        summary.parameters.emplace_back(path_of(a.sections, a.name), a.value);
+    summary.warnings = run.log.warnings();
+    summary.timings  = run.timers.walls(run.comm);
+    summary.memory   = peak_memory_mib(run.comm);
     try
       {
         mortise::write_summary(summary,

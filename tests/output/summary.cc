@@ -43,11 +43,13 @@ namespace
   full_summary()
   {
     Summary summary;
-    summary.program = program_info(2);
-    summary.title   = "quotes \" and \xc3\xa9";
-    summary.status  = "done";
-    summary.timings = {{"total", 1.5}, {"mesh", 0.25}};
-    summary.memory  = {200., 100.};
+    summary.program    = program_info(2);
+    summary.title      = "quotes \" and \xc3\xa9";
+    summary.status     = "done";
+    summary.parameters = {{"Body inner/Degree", "2"},
+                          {"Body inner/Degree", "3"}};
+    summary.timings    = {{"total", 1.5}, {"mesh", 0.25}};
+    summary.memory     = {200., 100.};
     StepSummary step;
     BodySummary body;
     body.name             = "inner";
@@ -87,7 +89,12 @@ namespace
     const Json json = Json::parse(to_json(full_summary()));
     check_keys("the summary",
                json,
-               "program title status steps timings_s memory_mib");
+               "program title status file parameters warnings steps timings_s "
+               "memory_mib");
+    verdict(json["parameters"]["Body inner/Degree"] == "3" &&
+              json["parameters"].size() == 1,
+            "of two values of a parameter the last counts",
+            json["parameters"].dump());
     check_keys("program",
                json["program"],
                "name version dealii ranks build_type");

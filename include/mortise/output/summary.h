@@ -197,10 +197,14 @@ namespace mortise
 
   struct Summary
   {
-    ProgramInfo              program;
-    std::string              title;
-    std::string              status; ///< "done", "not converged", ...
-    std::vector<StepSummary> steps;
+    ProgramInfo program;
+    std::string title;
+    std::string status; ///< "done", "not converged", ...
+    std::string file;   ///< the parameter file
+    /// What it and --set set: paths ("Body inner/Degree") and values.
+    std::vector<std::pair<std::string, std::string>> parameters;
+    std::vector<std::string>                         warnings;
+    std::vector<StepSummary>                         steps;
     std::vector<std::pair<std::string, double>>
                                 timings; ///< Timers::walls(), seconds
     PeakMemory                  memory;
