@@ -3,6 +3,7 @@
 
 #include <mortise/base/interruption.h>
 #include <mortise/problem/guard.h>
+#include <mortise/problem/report_program.h>
 #include <mortise/problem/run_command.h>
 #include <mortise/problem/start.h>
 
@@ -12,13 +13,15 @@ int
 main(int argc, char *argv[])
 {
   mortise::prepare_process(argv);
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (const auto code = mortise::make_report_if_asked(arguments))
+    return *code;
   mortise::catch_lack_of_memory_in_threads();
   // PETSc, which deal.II may be built with, takes all arguments for its own
   int                                      n_for_libraries = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);
   mortise::interruption::catch_signals(); // libraries have taken some of them
   mortise::interruption::share_silence(MPI_COMM_WORLD);
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
   return mortise::run_guarded(
     MPI_COMM_WORLD,
     [&] {

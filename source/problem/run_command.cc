@@ -69,6 +69,10 @@ namespace mortise
           if (prints)
             std::cout << parameter_reference();
           break;
+        case Action::print_parameters_as_json:
+          if (prints)
+            std::cout << parameter_reference_as_json();
+          break;
         default:
           run_scene(command, comm);
       }

@@ -55,6 +55,12 @@ main()
   check_line(
     "validate", {"--validate", "a.prm"}, Action::validate, "a.prm", {});
   check_line("parameters", {"--parameters"}, Action::print_parameters, "", {});
+  check_line("parameters for programs",
+             {"--parameters=json"},
+             Action::print_parameters_as_json,
+             "",
+             {});
+  check_line("report", {"--report", "some/where"}, Action::report, "", {});
   check_line("help", {"--help"}, Action::print_help, "", {});
   check_line("version", {"--version"}, Action::print_version, "", {});
   check_error("nothing", {}, {"a parameter file is needed", "usage: mortise"});
@@ -79,6 +85,12 @@ main()
   check_error("an empty directory",
               {"--output", "", "a.prm"},
               {"--output", "got \"\""});
+  check_error("another form of the parameters",
+              {"--parameters=xml"},
+              {"\"--parameters=xml\"", "--parameters=json"});
+  check_error("a report of a file",
+              {"--report", "some/where", "a.prm"},
+              {"--report", "\"a.prm\"", "allowed is one of them"});
   check_error("two actions",
               {"--help", "--version"},
               {"--version", "allowed is one of"});
@@ -86,7 +98,8 @@ main()
   for (const std::string option : {"--set",
                                    "--output",
                                    "--validate",
-                                   "--parameters",
+                                   "--report",
+                                   "--parameters[=json]",
                                    "--help",
                                    "--version"})
     all = all && help_text().find(option) != std::string::npos;

@@ -60,7 +60,8 @@ namespace mortise
       section.add(
         "Pressure",
         boundary.pressure,
-        "Pressure, acting against the outward normal [force per area]. Empty: none.",
+        {"Pressure, acting against the outward normal []. Empty: none.",
+         "force per area"},
         {"an expression in x, y, z, t; or exact"});
       section.add(
         "Pressure follows",
@@ -72,35 +73,40 @@ namespace mortise
           if (value.text != "auto")
             boundary.pressure_follows = value.text == "true";
         });
-      section.add(
-        "Traction",
-        boundary.traction,
-        "Force on the surface, added to Pressure [force per area]. Empty: none.",
-        {"three expressions \"tx; ty; tz\"; or exact"});
+      section.add("Traction",
+                  boundary.traction,
+                  {"Force on the surface, added to Pressure []. Empty: none.",
+                   "force per area"},
+                  {"three expressions \"tx; ty; tz\"; or exact"});
       section.add(
         "Force",
         boundary.force,
-        "Total force on the boundary, spread evenly over its area and added to the others [force]. Empty: none.",
+        {"Total force on the boundary, spread evenly over its area and added to the others []. Empty: none.",
+         "force"},
         {"three expressions \"Fx; Fy; Fz\" in t"});
       section.add(
         "Moment",
         boundary.moment,
-        "Total moment on the boundary about the centroid of its area [force times length], as a traction w x (x - centroid), "
-        "which has no resultant. Empty: none.",
+        {"Total moment on the boundary about the centroid of its area [], as a traction w x (x - centroid), "
+         "which has no resultant. Empty: none.",
+         "force times length"},
         {"three expressions \"Mx; My; Mz\" in t"});
       section.add(
         "Displacement",
         "",
-        "Prescribed displacement [length]; - leaves a component free. normal: along the outward normal of the surface, free across "
-        "it, as on rollers. Empty: all free.",
+        {"Prescribed displacement []; - leaves a component free. normal: along the outward normal of the surface, free across "
+         "it, as on rollers. Empty: all free.",
+         "length"},
         {"three of: an expression, -, or exact, as in \"-, -, 0\"; exact for all three; or \"normal: an expression\""},
         [&boundary](const ParameterValue &value) {
           set_displacement(boundary, value);
-        });
+        },
+        "list of expressions");
       section.add(
         "Displacement axes",
         boundary.displacement_axes,
-        "Rotates the axes of Displacement about those of the scene, x, then y, then z [degrees].",
+        {"Rotates the axes of Displacement about those of the scene, x, then y, then z [].",
+         "degrees"},
         {"3 numbers"});
     }
 
@@ -117,56 +123,62 @@ namespace mortise
                                 MaterialParameters     &material)
     {
       const Allowed not_negative = {"0 or a positive number"};
-      section.add(
-        "C10",
-        material.c10,
-        "Constant of the first invariant of Law = Mooney-Rivlin [force per area].",
-        not_negative);
+      section.add("C10",
+                  material.c10,
+                  {"Constant of the first invariant of Law = Mooney-Rivlin [].",
+                   "force per area"},
+                  not_negative);
       section.add(
         "C01",
         material.c01,
-        "Constant of the second invariant of Law = Mooney-Rivlin [force per area].",
+        {"Constant of the second invariant of Law = Mooney-Rivlin [].",
+         "force per area"},
         not_negative);
       section.add(
         "Ogden terms",
         "",
-        "Moduli and exponents of Law = Ogden, W = sum_p mu_p / alpha_p (sum_a l_a^alpha_p - 3) of isochoric stretches "
-        "[force per area; -].",
+        {"Moduli and exponents of Law = Ogden, W = sum_p mu_p / alpha_p (sum_a l_a^alpha_p - 3) of isochoric stretches "
+         "[].",
+         "force per area; -"},
         {"\"mu_1, alpha_1; mu_2, alpha_2; ...\" with mu_p alpha_p > 0"},
         [&material](const ParameterValue &value) {
           set_ogden_terms(material, value);
         });
       Hardening &hardening = material.hardening;
-      section.add(
-        "Yield stress",
-        hardening.yield_stress,
-        "First yield stress of Law = J2 plasticity in tension [force per area].",
-        not_negative);
-      section.add(
-        "Hardening modulus",
-        hardening.modulus,
-        "Linear isotropic hardening: stress per plastic strain [force per area].",
-        not_negative);
+      section.add("Yield stress",
+                  hardening.yield_stress,
+                  {"First yield stress of Law = J2 plasticity in tension [].",
+                   "force per area"},
+                  not_negative);
+      section.add("Hardening modulus",
+                  hardening.modulus,
+                  {"Linear isotropic hardening: stress per plastic strain [].",
+                   "force per area"},
+                  not_negative);
       section.add(
         "Saturation stress",
         hardening.saturation_stress,
-        "Yield stress that exponential hardening, added to the linear one, ends at [force per area]. 0: none.",
+        {"Yield stress that exponential hardening, added to the linear one, ends at []. 0: none.",
+         "force per area"},
         not_negative);
       section.add(
         "Saturation exponent",
         hardening.saturation_exponent,
-        "How fast it does so: the rest falls as exp(-exponent times plastic strain) [-].",
+        {"How fast it does so: the rest falls as exp(-exponent times plastic strain) [].",
+         "-"},
         not_negative);
       section.add(
         "Kinematic hardening modulus",
         hardening.kinematic_modulus,
-        "Linear kinematic hardening (Prager): back stress per plastic strain in tension [force per area].",
+        {"Linear kinematic hardening (Prager): back stress per plastic strain in tension [].",
+         "force per area"},
         not_negative);
       section.add(
         "Hardening table",
         "",
-        "Yield stress by equivalent plastic strain, linear between the points and constant beyond, in place of Yield "
-        "stress, Hardening modulus and Saturation stress [-, force per area].",
+        {"Yield stress by equivalent plastic strain, linear between the points and constant beyond, in place of Yield "
+         "stress, Hardening modulus and Saturation stress [].",
+         "-, force per area"},
         {"\"strain, stress; strain, stress; ...\", strains ascending from 0, stresses not descending"},
         [&hardening](const ParameterValue &value) {
           hardening.table = pairs(value);
@@ -190,47 +202,54 @@ namespace mortise
       section.add(
         "Young modulus",
         material.young_modulus,
-        "Young's modulus at small strain of Law = linear elastic, neo-Hookean, St. Venant-Kirchhoff and J2 plasticity "
-        "[force per area], which need one.",
+        {"Young's modulus at small strain of Law = linear elastic, neo-Hookean, St. Venant-Kirchhoff and J2 plasticity "
+         "[], which need one.",
+         "force per area"},
         {"a positive number"});
       section.add(
         "Poisson ratio",
         material.poisson_ratio,
-        "Poisson's ratio at small strain of all laws but orthotropic [-].",
+        {"Poisson's ratio at small strain of all laws but orthotropic [].",
+         "-"},
         {"a number above -1 and not above 0.5"});
       declare_nonlinear_constants(section, material);
       Orthotropic &orthotropic = material.orthotropic;
       section.add(
         "Young moduli",
         orthotropic.young_moduli,
-        "E_x, E_y, E_z of Law = orthotropic, along the axes of the material "
-        "[force per area].",
+        {"E_x, E_y, E_z of Law = orthotropic, along the axes of the material "
+         "[].",
+         "force per area"},
         {"3 positive numbers"});
       section.add(
         "Poisson ratios",
         orthotropic.poisson_ratios,
-        "nu_xy, nu_yz, nu_zx of Law = orthotropic [-]; nu_ij is the contraction along j per "
-        "extension along i under tension along i, nu_ij / E_i = nu_ji / E_j.",
+        {"nu_xy, nu_yz, nu_zx of Law = orthotropic []; nu_ij is the contraction along j per "
+         "extension along i under tension along i, nu_ij / E_i = nu_ji / E_j.",
+         "-"},
         {"3 numbers with which the stiffness is positive definite"});
       section.add("Shear moduli",
                   orthotropic.shear_moduli,
-                  "G_xy, G_yz, G_zx of Law = orthotropic [force per area].",
+                  {"G_xy, G_yz, G_zx of Law = orthotropic [].",
+                   "force per area"},
                   {"3 positive numbers"});
       section.add(
         "Axes",
         orthotropic.axes,
-        "Rotates the axes of Law = orthotropic about those of the scene, x, then y, then z "
-        "[degrees]. They do not follow the Rotate of the mesh.",
+        {"Rotates the axes of Law = orthotropic about those of the scene, x, then y, then z "
+         "[]. They do not follow the Rotate of the mesh.",
+         "degrees"},
         {"3 numbers"});
-      section.add(
-        "Density",
-        material.density,
-        "Mass density, on which Gravity acts [mass per volume]. 0: no weight.",
-        {"0 or a positive number"});
+      section.add("Density",
+                  material.density,
+                  {"Mass density, on which Gravity acts []. 0: no weight.",
+                   "mass per volume"},
+                  {"0 or a positive number"});
       section.add(
         "Thermal expansion",
         material.thermal_expansion,
-        "Strain per Temperature of the body, the same in all directions [1 / temperature].",
+        {"Strain per Temperature of the body, the same in all directions [].",
+         "1 / temperature"},
         {"a number"});
     }
   } // namespace
@@ -271,19 +290,22 @@ namespace mortise
     section.add(
       "Body force",
       "auto",
-      "Force on the volume [force per volume]. auto: the force that balances the exact solution if that is given by "
-      "expressions (it then includes Gravity), else zero.",
+      {"Force on the volume []. auto: the force that balances the exact solution if that is given by "
+       "expressions (it then includes Gravity), else zero.",
+       "force per volume"},
       {"three expressions \"bx; by; bz\" in x, y, z, t; exact; or auto"},
       [&body](const ParameterValue &value) {
         body.body_force.reset();
         if (value.text != "auto")
           value.read(body.body_force);
-      });
+      },
+      "list of expressions");
     section.add(
       "Temperature",
       body.temperature,
-      "Temperature above that of the state without strain [temperature], which acts by Thermal expansion. Empty: "
-      "none.",
+      {"Temperature above that of the state without strain [], which acts by Thermal expansion. Empty: "
+       "none.",
+       "temperature"},
       {"an expression in x, y, z, t"});
     declare_mesh(section.subsection("Mesh"), body.mesh);
     declare_material(section.subsection("Material"), body.material);

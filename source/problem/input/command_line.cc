@@ -13,6 +13,7 @@ namespace mortise
     const std::vector<std::string> option_names = {"--set",
                                                    "--output",
                                                    "--restart",
+                                                   "--report",
                                                    "--validate",
                                                    "--parameters",
                                                    "--help",
@@ -50,8 +51,36 @@ namespace mortise
         fail(
           "got " + option +
           " and another option that asks for something else; allowed is one of "
-          "--validate, --parameters, --help, --version");
+          "--validate, --parameters, --report, --help, --version");
       line.action = action;
+    }
+
+    /// The directory that @p option names.
+    std::string
+    directory_of(const std::vector<std::string> &arguments,
+                 std::size_t                    &i,
+                 const std::string              &option)
+    {
+      const std::string directory = value_of(arguments, i, "results/mine");
+      if (normalised(directory).empty())
+        fail(option + " needs the name of a directory; got \"\"");
+      return directory;
+    }
+
+    /// "--parameters" or "--parameters=json".
+    void
+    read_parameters_option(CommandLine       &line,
+                           const std::string &argument,
+                           const std::string &option)
+    {
+      const bool as_json = argument == option + "=json";
+      if (!as_json && argument != option)
+        fail("got " + in_quotes(argument) + "; allowed: " + option + ", " +
+             option + "=json");
+      set_action(line,
+                 as_json ? Action::print_parameters_as_json :
+                           Action::print_parameters,
+                 option);
     }
 
     /// The option at position @p i; advances over its value.
@@ -70,26 +99,23 @@ namespace mortise
             line.settings.back()); // says now what cannot be understood
         }
       else if (option == "--output")
-        {
-          const std::string directory = value_of(arguments, i, "results/mine");
-          if (normalised(directory).empty())
-            fail("--output needs the name of a directory; got \"\"");
-          line.settings.push_back("Output/Directory=" + directory);
-        }
+        line.settings.push_back("Output/Directory=" +
+                                directory_of(arguments, i, option));
       else if (option == "--restart")
+        line.restart = directory_of(arguments, i, option);
+      else if (option == "--report")
         {
-          line.restart = value_of(arguments, i, "results/mine");
-          if (normalised(line.restart).empty())
-            fail("--restart needs the name of a directory; got \"\"");
+          set_action(line, Action::report, option);
+          line.results = directory_of(arguments, i, option);
         }
+      else if (option == "--parameters")
+        read_parameters_option(line, arguments[i], option);
       else if (value)
         fail("unknown option " + in_quotes(arguments[i]) +
              did_you_mean(option, option_names) +
              "; allowed: " + join_names(option_names));
       else if (option == "--validate")
         set_action(line, Action::validate, option);
-      else if (option == "--parameters")
-        set_action(line, Action::print_parameters, option);
       else if (option == "--help" || option == "-h")
         set_action(line, Action::print_help, option);
       else if (option == "--version")
@@ -120,6 +146,9 @@ namespace mortise
       fail("got --restart and the parameter file " + in_quotes(line.file) +
            "; allowed is one of them (a checkpoint knows its parameters; --set "
            "changes them)");
+    if (line.action == Action::report && !line.file.empty())
+      fail("got --report and the parameter file " + in_quotes(line.file) +
+           "; allowed is one of them");
     if (needs_file && line.file.empty() && line.restart.empty())
       fail("a parameter file is needed, as in: mortise prm/thick_sphere.prm");
     return line;
@@ -134,7 +163,8 @@ namespace mortise
            "  mpirun -n 4 mortise [OPTION]... FILE.prm   the same on four ranks\n"
            "  mortise --validate [OPTION]... FILE.prm    check the file and its meshes, then stop\n"
            "  mortise --restart DIR [OPTION]...          go on from the last checkpoint in DIR\n"
-           "  mortise --parameters                       every parameter: default, unit, meaning\n"
+           "  mortise --report DIR                       a page of the results: DIR/report.html\n"
+           "  mortise --parameters[=json]                every parameter: default, unit, meaning\n"
            "  mortise --help | --version\n"
            "\n"
            "Options:\n"

@@ -22,8 +22,9 @@ namespace mortise
       section.add(
         "Mesh size",
         mesh.mesh_size,
-        "Longest edge where gmsh meshes a geometry, and the value of mesh_size if a .geo file has DefineConstant[ "
-        "mesh_size = ... ] [length]. 0: as the geometry specifies.",
+        {"Longest edge where gmsh meshes a geometry, and the value of mesh_size if a .geo file has DefineConstant[ "
+         "mesh_size = ... ] []. 0: as the geometry specifies.",
+         "length"},
         {"0 or a positive number"});
       section.add(
         "Boundaries",
@@ -37,10 +38,11 @@ namespace mortise
       section.add(
         "Curved boundaries",
         mesh.curved_boundaries,
-        "True shapes of boundaries of a file of first order, which refined cells and cells "
-        "of higher degree follow, before Rotate and Translate; centre, axis (a point on it "
-        "and a direction) and radius are fitted to the vertices where they are left out "
-        "[lengths].",
+        {"True shapes of boundaries of a file of first order, which refined cells and cells "
+         "of higher degree follow, before Rotate and Translate; centre, axis (a point on it "
+         "and a direction) and radius are fitted to the vertices where they are left out "
+         "[].",
+         "length"},
         {"\"boundary: sphere [x, y, z[, radius]]; boundary: cylinder [x, y, z, ax, ay, "
          "az[, radius]]; boundary: step FILE; ...\""});
     }
@@ -61,9 +63,10 @@ namespace mortise
       section.add(
         "Extent",
         mesh.extent,
-        "Size of a generated body [length]. box and curved block: x0, y0, z0, x1, y1, "
-        "z1 (of the whole block); shell octant: r_in, r_out; cylinder sector: r_in, "
-        "r_out, length.",
+        {"Size of a generated body []. box and curved block: x0, y0, z0, x1, y1, "
+         "z1 (of the whole block); shell octant: r_in, r_out; cylinder sector: r_in, "
+         "r_out, length.",
+         "length"},
         {"2, 3 or 6 numbers, as the generator needs"});
       section.add(
         "Subdivisions",
@@ -80,18 +83,19 @@ namespace mortise
       section.add(
         "Refine near",
         mesh.refine_near,
-        "Local refinement after Refinements: cells that reach into a ball are cut the given number of times [lengths, "
-        "after Rotate and Translate].",
+        {"Local refinement after Refinements: cells that reach into a ball are cut the given number of times [], "
+         "after Rotate and Translate.",
+         "length"},
         {"\"x, y, z, radius, times; ...\""});
       declare_mesh_file(section, mesh);
-      section.add(
-        "Rotate",
-        mesh.rotate,
-        "Rotates the body about the axes x, then y, then z [degrees].",
-        {"3 numbers"});
+      section.add("Rotate",
+                  mesh.rotate,
+                  {"Rotates the body about the axes x, then y, then z [].",
+                   "degrees"},
+                  {"3 numbers"});
       section.add("Translate",
                   mesh.translate,
-                  "Moves the body, after Rotate [length].",
+                  {"Moves the body, after Rotate [].", "length"},
                   {"3 numbers"});
     }
 
@@ -101,18 +105,21 @@ namespace mortise
       section.add(
         "Bottom slope",
         mesh.bottom_slope,
-        "box: the face zmin lies in z = z0 + sx (x - x0) + sy (y - y0) [-].",
+        {"box: the face zmin lies in z = z0 + sx (x - x0) + sy (y - y0) [].",
+         "-"},
         {"2 numbers: sx, sy"});
       section.add(
         "Top slope",
         mesh.top_slope,
-        "box: the face zmax lies in z = z1 + sx (x - x0) + sy (y - y0) [-].",
+        {"box: the face zmax lies in z = z1 + sx (x - x0) + sy (y - y0) [].",
+         "-"},
         {"2 numbers: sx, sy"});
       section.add(
         "Distort",
         mesh.distort,
-        "box: largest shift of a vertex as a fraction of its cell's edges, the same on "
-        "every run [-].",
+        {"box: largest shift of a vertex as a fraction of its cell's edges, the same on "
+         "every run [].",
+         "-"},
         {"a number from 0 to 0.3"});
       section.add("Half",
                   mesh.half,
@@ -128,12 +135,12 @@ namespace mortise
       section.add(
         "Amplitude",
         mesh.amplitude,
-        "curved block: height of that surface [length].",
+        {"curved block: height of that surface [].", "length"},
         {"a number smaller in magnitude than the height of each half"});
       section.add(
         "Middle",
         mesh.middle,
-        "curved block: z_middle as a fraction of the block's height [-].",
+        {"curved block: z_middle as a fraction of the block's height [].", "-"},
         {"a number between 0 and 1"});
     }
   } // namespace

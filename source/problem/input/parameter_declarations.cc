@@ -41,7 +41,7 @@ namespace mortise
     declare_side(const ParameterSection &section,
                  const std::string      &name,
                  SideParameters         &side,
-                 const std::string      &meaning,
+                 const Meaning          &meaning,
                  const Parameters       &parameters)
     {
       section.add(name,
@@ -89,49 +89,58 @@ namespace mortise
       section.add(
         "Friction coefficient",
         interface.friction_coefficient,
-        "Law = contact: Coulomb's coefficient [-], the tangential traction divided by the pressure where bodies slip. "
-        "Empty: no friction.",
+        {"Law = contact: Coulomb's coefficient [], the tangential traction divided by the pressure where bodies slip. "
+         "Empty: no friction.",
+         "-"},
         {"an expression in x, y, z, t, not negative"});
       section.add(
         "Static friction coefficient",
         interface.static_friction_coefficient,
-        "The coefficient [-] where bodies did not slip at the end of the last step; once they slip it is the Friction "
-        "coefficient. Empty: the same.",
+        {"The coefficient [] where bodies did not slip at the end of the last step; once they slip it is the Friction "
+         "coefficient. Empty: the same.",
+         "-"},
         {"an expression in x, y, z, t, at least the Friction coefficient"});
       section.add(
         "Friction bound",
         interface.friction_bound,
-        "Law = tresca: the tangential traction at which bodies slip [force per area].",
+        {"Law = tresca: the tangential traction at which bodies slip [].",
+         "force per area"},
         {"an expression in x, y, z, t, not negative"});
       section.add(
         "Normal stiffness",
         interface.normal_stiffness,
-        "Law = spring: normal traction divided by opening [force per volume]. For a layer of thickness d it is the "
-        "modulus divided by d.",
+        {"Law = spring: normal traction divided by opening []. For a layer of thickness d it is the "
+         "modulus divided by d.",
+         "force per volume"},
         {"an expression in x, y, z, positive"});
       section.add(
         "Tangential stiffness",
         interface.tangential_stiffness,
-        "The same in tangential directions [force per volume]; 0: free tangential motion.",
+        {"The same in tangential directions []; 0: free tangential motion.",
+         "force per volume"},
         {"an expression in x, y, z, positive; or 0"});
       section.add(
         "Offset",
         interface.offset,
-        "Gap between the bodies in addition to that between their meshes, which only contact takes into account; "
-        "negative: an interference, as of a press fit whose meshes coincide [length].",
-        {"an expression in x, y, z, t"});
+        {"Gap between the bodies in addition to that between their meshes, which only contact takes into account; "
+         "negative: an interference, as of a press fit whose meshes coincide [].",
+         "length"},
+        {"an expression in x, y, z, t"},
+        "expression");
       section.add(
         "Preload",
         interface.preload,
-        "Law = tie: the normal force that the interface carries [force], positive in tension, as in a cut through the "
-        "shank of a tightened bolt, negative in compression, as under the head of that bolt. The shortening, by which "
-        "the sides approach each other in addition to Offset, is an unknown. Empty: none.",
+        {"Law = tie: the normal force that the interface carries [], positive in tension, as in a cut through the "
+         "shank of a tightened bolt, negative in compression, as under the head of that bolt. The shortening, by which "
+         "the sides approach each other in addition to Offset, is an unknown. Empty: none.",
+         "force"},
         {"an expression in t"});
       section.add(
         "Preload until",
         interface.preload_until,
-        "Time from which on the shortening is kept and the force follows [time]. Empty: the force is given at all "
-        "times.",
+        {"Time from which on the shortening is kept and the force follows []. Empty: the force is given at all "
+         "times.",
+         "time"},
         {"a number"});
       section.add(
         "Mesh gap",
@@ -158,9 +167,10 @@ namespace mortise
       section.add(
         "Search distance",
         "0.5",
-        "Largest distance of the two faces of a pair, as a fraction of the size of the larger face [-], or a length. "
-        "Partners face the slave and are not hidden by a body. With Adaptivity the distance for contact is at least "
-        "the relative motion of the sides in the last cycle.",
+        {"Largest distance of the two faces of a pair, as a fraction of the size of the larger face [], or a length. "
+         "Partners face the slave and are not hidden by a body. With Adaptivity the distance for contact is at least "
+         "the relative motion of the sides in the last cycle.",
+         "-"},
         {"a positive number, or \"length NUMBER\""},
         [&interface](const ParameterValue &value) {
           const std::string word      = "length ";
@@ -212,17 +222,20 @@ namespace mortise
       section.add(
         "Displacement",
         "",
-        "Exact displacement [length]: relative errors are computed when it is given.",
+        {"Exact displacement []: relative errors are computed when it is given.",
+         "length"},
         {"three expressions \"ux; uy; uz\" in x, y, z, t; thick sphere; or thick cylinder "
          "(which take pressure, radii and materials from the scene)"},
         [&exact](const ParameterValue &value) {
           set_exact_displacement(exact, value);
-        });
+        },
+        "list of expressions");
       section.add(
         "Pressure",
         exact.pressure,
-        "Exact mean pressure, minus a third of the trace of the stress [force per area], for "
-        "expressions in a scene with nu = 0.5, where it does not follow from the displacement.",
+        {"Exact mean pressure, minus a third of the trace of the stress [], for "
+         "expressions in a scene with nu = 0.5, where it does not follow from the displacement.",
+         "force per area"},
         {"an expression in x, y, z, t"});
     }
 
@@ -272,7 +285,8 @@ namespace mortise
           output.fields = split_outside_parentheses(value.text, ',');
           for (const std::string &field : output.fields)
             value.choice(field);
-        });
+        },
+        "list of selections");
       section.add(
         "Checkpoint every",
         output.checkpoint_every,
@@ -282,7 +296,8 @@ namespace mortise
       section.add(
         "Points",
         "",
-        "Displacements to report in the summary, at points of bodies [length].",
+        {"Displacements to report in the summary, at points of bodies [].",
+         "length"},
         {"\"name: body: x, y, z; ...\""},
         [&](const ParameterValue &value) {
           output.points = points_of(value, parameters);
@@ -302,7 +317,8 @@ namespace mortise
       section.add(
         "Moments about",
         output.moments_about,
-        "Reference point of the moments of Resultants and interfaces [length].",
+        {"Reference point of the moments of Resultants and interfaces [].",
+         "length"},
         {"3 numbers"});
     }
   } // namespace
@@ -319,16 +335,19 @@ namespace mortise
               join_names(names_of(parameters.bodies)),
               "Names of the bodies; each has a subsection \"Body NAME\".",
               {"names separated by commas"},
-              known);
+              known,
+              "list of names");
     scene.add("Interfaces",
               join_names(names_of(parameters.interfaces)),
               "Names of interfaces; each has an \"Interface NAME\".",
               {"names separated by commas"},
-              known);
+              known,
+              "list of names");
     scene.add(
       "Gravity",
       parameters.gravity,
-      "Acceleration of all bodies with a Density [length per time squared], added to Body force. Empty: none.",
+      {"Acceleration of all bodies with a Density [], added to Body force. Empty: none.",
+       "length per time squared"},
       {"three expressions \"gx; gy; gz\" in x, y, z, t"});
     for (BodyParameters &body : parameters.bodies)
       declare_body(scene.subsection("Body " + body.name), body);

@@ -22,6 +22,14 @@ namespace mortise
             }};
   }
 
+  Meaning::Meaning(const char *with_place, const std::string &unit)
+    : text(with_place)
+    , unit(unit)
+  {
+    if (!unit.empty())
+      text.replace(text.find("[]"), 2, "[" + unit + "]");
+  }
+
   double
   ParameterValue::number(const std::string &part) const
   {
@@ -139,9 +147,10 @@ namespace mortise
   void
   ParameterSection::add(const std::string &name,
                         const std::string &default_value,
-                        const std::string &meaning,
+                        const Meaning     &meaning,
                         const Allowed     &allowed,
-                        std::function<void(const ParameterValue &)> set) const
+                        std::function<void(const ParameterValue &)> set,
+                        const std::string                          &type) const
   {
     entries.push_back({path,
                        name,
@@ -149,6 +158,9 @@ namespace mortise
                        meaning,
                        allowed,
                        std::move(set),
+                       !type.empty()           ? type :
+                       allowed.choices.empty() ? "text" :
+                                                 "selection",
                        default_value,
                        path_of(path, name)});
   }

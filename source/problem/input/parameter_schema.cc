@@ -155,16 +155,22 @@ namespace mortise
     entry.where           = where;
   }
 
-  std::string
-  parameter_reference()
+  std::vector<ParameterEntry>
+  entries_of_reference()
   {
+    // the functions that set members are never called
     Parameters parameters;
     parameters.bodies.resize(1);
     parameters.bodies[0].name = "NAME";
     parameters.bodies[0].boundaries["NAME"];
     parameters.interfaces.resize(1);
     parameters.interfaces[0].name = "NAME";
+    return declare_parameters(parameters);
+  }
 
+  std::string
+  parameter_reference()
+  {
     std::string text = reference_heading;
     Strings     open;
     const auto  indent = [&open] { return std::string(2 * open.size(), ' '); };
@@ -172,7 +178,7 @@ namespace mortise
       open.pop_back();
       text += indent() + "end\n";
     };
-    for (const ParameterEntry &entry : declare_parameters(parameters))
+    for (const ParameterEntry &entry : entries_of_reference())
       {
         while (open.size() > entry.sections.size() ||
                !std::equal(open.begin(), open.end(), entry.sections.begin()))
@@ -183,7 +189,7 @@ namespace mortise
             text += "\n" + indent() + "subsection " + section + "\n";
             open.push_back(section);
           }
-        text += "\n" + comment(entry.meaning, indent()) +
+        text += "\n" + comment(entry.meaning.text, indent()) +
                 comment("Allowed: " + entry.allowed.words + ".", indent()) +
                 indent() + "set " + entry.name + " =" +
                 (entry.default_value.empty() ? "" : " " + entry.default_value) +

@@ -15,7 +15,8 @@ namespace mortise
     section.add(
       "Tolerance",
       solver.tolerance,
-      "Residual relative to the right hand side at which the solver stops [-].",
+      {"Residual relative to the right hand side at which the solver stops [].",
+       "-"},
       {"a number between 0 and 1, both excluded",
        [](double tolerance) { return tolerance > 0. && tolerance < 1.; }});
     section.add(
@@ -48,8 +49,9 @@ namespace mortise
     section.add(
       "Target error",
       adaptivity.target_error,
-      "Estimated relative error at which the run ends [-], of the displacements in the energy norm, or of Quantity. "
-      "Empty: no adaptivity.",
+      {"Estimated relative error at which the run ends [], of the displacements in the energy norm, or of Quantity. "
+       "Empty: no adaptivity.",
+       "-"},
       {"a number between 0 and 1, both excluded",
        [](double error) { return error > 0. && error < 1.; }});
     section.add(
@@ -84,12 +86,14 @@ namespace mortise
     section.add(
       "End time",
       steps.end_time,
-      "End of the last step [time]; the first begins at 0. Empty: the last of Step, or 1.",
+      {"End of the last step []; the first begins at 0. Empty: the last of Step, or 1.",
+       "time"},
       Allowed::positive_number());
     section.add(
       "Step",
       steps.step,
-      "Length of all steps, or the times at which they end [time]. Empty: one step.",
+      {"Length of all steps, or the times at which they end []. Empty: one step.",
+       "time"},
       {"a positive number, or ascending ones separated by commas",
        [](double length) { return length > 0.; }});
     section.add(
@@ -112,13 +116,15 @@ namespace mortise
     section.add(
       "Largest step",
       steps.largest_step,
-      "Longest step in a nonlinear scene [time]; steps between the times of Step are cut evenly. Empty: no limit.",
+      {"Longest step in a nonlinear scene []; steps between the times of Step are cut evenly. Empty: no limit.",
+       "time"},
       Allowed::positive_number());
     section.add(
       "Smallest step",
       steps.smallest_step,
-      "Steps that fail in a nonlinear scene are halved, down to this fraction of the planned step [-]; after those that "
-      "converge easily the next ones are longer again.",
+      {"Steps that fail in a nonlinear scene are halved, down to this fraction of the planned step []; after those that "
+       "converge easily the next ones are longer again.",
+       "-"},
       Allowed::positive_number());
   }
 } // namespace mortise

@@ -15,6 +15,8 @@ namespace mortise
       run,
       validate,         ///< parse, check combinations, open the meshes, stop
       print_parameters, ///< every parameter with default, unit and meaning
+      print_parameters_as_json, ///< the same for programs
+      report,                   ///< a page of the results in a directory
       print_help,
       print_version
     };
@@ -22,6 +24,7 @@ namespace mortise
     Action      action = Action::run;
     std::string file;    ///< the parameter file, for run and validate
     std::string restart; ///< directory of a checkpoint, instead of a file
+    std::string results; ///< directory of the report
     Settings settings; ///< --set and --output, in the order of the command line
   };
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <mortise/base/quotes.h>
+#include <mortise/problem/input/parameter_description.h>
 #include <mortise/problem/input/parameters.h>
 
 #include <algorithm>
@@ -17,34 +18,6 @@
 
 namespace mortise
 {
-  /// Allowed values of a parameter in words and as checks.
-  struct Allowed
-  {
-    std::string                 words;
-    std::function<bool(double)> contains{}; ///< empty: any number
-    std::vector<std::string>    choices{};  ///< empty: any text
-
-    static Allowed
-    positive_number()
-    {
-      return {"a positive number",
-              [](const double value) { return value > 0.; }};
-    }
-
-    static Allowed
-    integer(unsigned int least, unsigned int most = no_limit);
-
-    static Allowed
-    one_of(const std::vector<std::string> &names)
-    {
-      return {names.size() == 1 ? names[0] : "one of: " + join_names(names),
-              {},
-              names};
-    }
-
-    static constexpr unsigned int no_limit = 0x7fffffff;
-  };
-
   template <typename T>
   constexpr bool is_choice = std::is_enum_v<T> || std::is_same_v<T, bool>;
 
@@ -135,9 +108,10 @@ namespace mortise
     std::vector<std::string>                    sections;
     std::string                                 name;
     std::string                                 default_value;
-    std::string                                 meaning; ///< with the unit
+    Meaning                                     meaning;
     Allowed                                     allowed;
-    std::function<void(const ParameterValue &)> set; ///< the member
+    std::function<void(const ParameterValue &)> set;  ///< the member
+    std::string                                 type; ///< see type_of()
     std::string value; ///< the default, or what was assigned last
     std::string where; ///< its location, for messages
   };
@@ -157,30 +131,66 @@ namespace mortise
       return ParameterSection(entries, below);
     }
 
-    /// An entry that sets @p member, of a type that ParameterValue reads.
+    /// An entry that sets @p member, of a type that ParameterValue reads. @p
+    /// type: where that does not tell.
     template <typename T>
     void
     add(const std::string &name,
         T                 &member,
-        const std::string &meaning,
-        const Allowed     &allowed) const
+        const Meaning     &meaning,
+        const Allowed     &allowed,
+        const std::string &type = "") const
     {
-      add(name,
-          text_of(member, allowed),
-          meaning,
-          allowed,
-          [&member](const ParameterValue &value) { value.read(member); });
+      add(
+        name,
+        text_of(member, allowed),
+        meaning,
+        allowed,
+        [&member](const ParameterValue &value) { value.read(member); },
+        type.empty() ? type_of<T>(allowed) : type);
     }
 
-    /// An entry of its own kind.
+    /// An entry of its own kind. Without @p type it is a selection if there are
+    /// choices, else a text.
     void
     add(const std::string                          &name,
         const std::string                          &default_value,
-        const std::string                          &meaning,
+        const Meaning                              &meaning,
         const Allowed                              &allowed,
-        std::function<void(const ParameterValue &)> set) const;
+        std::function<void(const ParameterValue &)> set,
+        const std::string                          &type = "") const;
 
   private:
+    template <typename T>
+    struct IsOptional : std::false_type
+    {};
+    template <typename T>
+    struct IsOptional<std::optional<T>> : std::true_type
+    {};
+
+    /// In one or two words, for programs that write parameter files.
+    template <typename T>
+    static std::string
+    type_of(const Allowed &allowed)
+    {
+      if constexpr (std::is_same_v<T, bool>)
+        return allowed.choices.back() == "true" ? "boolean" : "selection";
+      else if constexpr (std::is_same_v<T, std::optional<std::string>>)
+        return "expression";
+      else if constexpr (IsOptional<T>::value)
+        return type_of<typename T::value_type>(allowed);
+      else if constexpr (std::is_same_v<T, Components>)
+        return "list of expressions";
+      else if constexpr (std::is_floating_point_v<T>)
+        return "real";
+      else if constexpr (std::is_integral_v<T>)
+        return "integer";
+      else if constexpr (std::is_enum_v<T> || std::is_same_v<T, std::string>)
+        return allowed.choices.empty() ? "text" : "selection";
+      else
+        return "list of " + type_of<typename T::value_type>(allowed) + "s";
+    }
+
     template <typename T>
     static std::string
     text_of(const std::optional<T> &, const Allowed &)

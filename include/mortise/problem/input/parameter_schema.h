@@ -40,8 +40,17 @@ namespace mortise
          const Assignment            &assignment,
          const std::string           &where);
 
+  /// All entries with NAME for the names of a body, a boundary and an
+  /// interface; they set nothing.
+  std::vector<ParameterEntry>
+  entries_of_reference();
+
   /// The text of --parameters: a parameter file with all defaults, and unit,
   /// meaning and allowed values as comments.
   std::string
   parameter_reference();
+
+  /// The text of --parameters=json: the same for programs.
+  std::string
+  parameter_reference_as_json();
 } // namespace mortise
