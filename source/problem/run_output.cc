@@ -1,3 +1,5 @@
+#include <deal.II/base/mpi.h>
+
 #include <mortise/output/checkpoint.h>
 #include <mortise/problem/run_output.h>
 
@@ -66,6 +68,19 @@ namespace mortise
       {
         errors.push_back(error);
       }
+  }
+
+  void
+  RunOutput::write_running(Summary &summary)
+  {
+    constexpr double seconds_between = 5.;
+    const double     now =
+      dealii::Utilities::MPI::broadcast(run.comm, run.timers.total());
+    if (seconds_of_summary >= 0. && now < seconds_of_summary + seconds_between)
+      return;
+    seconds_of_summary = now;
+    summary.status     = "running";
+    write_summary(summary);
   }
 
   void

@@ -253,6 +253,8 @@ namespace mortise
                           evaluation,
                           adaptivity ? adaptivity->errors().by_cell() :
                                        NumbersByCell());
+    if (report.converged && !steps.finished())
+      output.write_running(summary);
     const unsigned int every = parameters.output.checkpoint_every;
     if (every == 0 || !report.converged ||
         ((adaptivity ? adaptivity->n_cycles() : steps.n_done()) % every != 0 &&

@@ -40,6 +40,12 @@ namespace mortise
     void
     write_summary(Summary &summary);
 
+    /// The same of a run that goes on, for those who watch it, and for what is
+    /// left of it if it is killed: after its first step, then every five
+    /// seconds at most.
+    void
+    write_running(Summary &summary);
+
     /// Print the completed fraction of @p steps and the estimated remaining
     /// time.
     void
@@ -69,6 +75,7 @@ namespace mortise
 
     const RunContext        &run;
     Clock                    clock;
+    double                   seconds_of_summary = -1.; ///< of the last one
     std::vector<OutputError> errors;
   };
 } // namespace mortise
