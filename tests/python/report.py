@@ -9,6 +9,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import time
 
 from verdict import end, verdict
 
@@ -122,13 +123,16 @@ def of_other_ends():
     mortise("--output", "idle", source / "tests/field/nothing_acts.prm")
     page = report("idle")
     verdict("nothing acts" in page.sections["warnings"], "warnings of the program", page.sections["warnings"])
-    # as it stands while a run goes on, or was killed
-    summary = json.loads(pathlib.Path("sphere/summary.json").read_text())
-    os.mkdir("running")
-    summary.update(status="running", steps=[])
-    pathlib.Path("running/summary.json").write_text(json.dumps(summary))
-    page = report("running")
-    verdict("not finished" in page.sections["warnings"], "a run that is going on, before its first step", page.sections["warnings"])
+    # with its first step done, killed while it does the others
+    run = subprocess.Popen([program, "--output", "killed", str(source / "prm/shrink_fit_torque.prm"), "--set", "Steps/Step=0.005",
+                            "--set", "Output/Fields="], stdout=subprocess.DEVNULL)
+    while run.poll() is None and not os.path.exists("killed/summary.json"):
+        time.sleep(0.02)
+    run.kill()
+    verdict(run.wait() != 0, "a run of many steps is killed")
+    page = report("killed")
+    verdict("not finished" in page.sections["warnings"] and "inner" in page.text, "what is left of it has a report",
+            page.sections["warnings"])
 
 
 def errors():

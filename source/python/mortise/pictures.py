@@ -34,7 +34,7 @@ def _draw(plotter: Any, file: Path, meshes: List[Any], scalars: str, title: str)
     if high - low < 1e-3 * max(abs(low), abs(high)):  # the same everywhere, but for rounding
         low, high = 0.5 * (low + high) - 0.01 * abs(high), 0.5 * (low + high) + 0.01 * abs(high)
     bar = {"title": title + "\n", "color": "black", "fmt": "%.3g", "vertical": True, "position_x": 0.86, "position_y": 0.15,
-           "height": 0.7, "width": 0.06, "title_font_size": 26, "label_font_size": 22}
+           "height": 0.7, "width": 0.06, "title_font_size": 24, "label_font_size": 22}
     for mesh in meshes:
         plotter.add_mesh(_surface(mesh), scalars=scalars, clim=(low, high), cmap="viridis", ambient=0.4, diffuse=0.65, nan_color="#d0d4d9",
                          scalar_bar_args=bar)
@@ -43,9 +43,9 @@ def _draw(plotter: Any, file: Path, meshes: List[Any], scalars: str, title: str)
             plotter.add_mesh(edges, color="#202830", line_width=1)
     plotter.view_vector((-1.5, -2.2, 1.1), viewup=(0, 0, 1))
     plotter.add_axes(color="black")
-    plotter.render()  # sets the camera, at first
     plotter.camera.Dolly(1.25)
     plotter.renderer.ResetCameraClippingRange()
+    plotter.render()
     plotter.screenshot(str(file))
 
 

@@ -35,7 +35,7 @@ def find_program(program: Optional[PathLike] = None) -> Path:
     on_path = shutil.which("mortise")
     if on_path:
         return Path(on_path).resolve()
-    for top in (*Path(__file__).resolve().parents[2:4], Path.cwd()):
+    for top in (*list(Path(__file__).resolve().parents)[2:4], Path.cwd()):
         for candidate in sorted(top.glob("build*/mortise")):
             if os.access(candidate, os.X_OK):
                 return candidate.resolve()

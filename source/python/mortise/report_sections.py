@@ -41,6 +41,9 @@ def facts(results: Results) -> str:
         cards = [("bodies", shown(len(last["bodies"]))), ("interfaces", shown(len(last["interfaces"]))),
                  ("cells", shown(sum(body["cells"] for body in last["bodies"]))),
                  ("unknowns", shown(last["dofs"]["total"]))] + cards
+        estimate = last.get("adaptivity", {}).get("estimate")
+        if estimate is not None:
+            cards.insert(0, ("estimated error", f"{100 * estimate:.3g} %"))
     if len(steps) > 1:
         cards.insert(0, ("steps" if steps[-1]["step"] else "cycles", shown(len(steps))))
     return '<div class="facts">' + "".join(f"<div><b>{v}</b><span>{k}</span></div>" for k, v in cards) + "</div>"
@@ -96,12 +99,12 @@ def coupling(results: Results) -> str:
     quality, forces, contact = [], [], []
     for i in results.last["interfaces"]:
         covered = i["covered_area"] / i["slave_area"] if i["slave_area"] else None
-        force = _norm(i["force"]) or 0.0
+        force, contact_law = _norm(i["force"]) or 0.0, "contact" in i  # whose sides may lie apart
         quality.append([i["name"], i["slave_faces"], i["pairs"],
-                        Cell(covered, "" if covered is None else "good" if covered > 0.999 else "warn",
+                        Cell(covered, "" if covered is None or contact_law else "good" if covered > 0.999 else "warn",
                              "part of the slave that has a partner"),
                         _small(i.get("partition_of_unity_error"), 1e-8, 1e-5), _small(i.get("force_residual"), 1e-8, 1e-5),
-                        _small(i.get("moment_residual"), 1e-8, 1e-5), _small(i.get("linear_completeness_error"), 1e-3, 1e-1),
+                        _small(i.get("moment_residual"), 1e-8, 1e-5), i.get("linear_completeness_error") if contact_law else _small(i.get("linear_completeness_error"), 1e-3, 1e-1),
                         i["distance_mean"], i["distance_max"], i["gap_mean"]])
         preload = i.get("preload") or {}
         forces.append([i["name"], i["area"], i["force"] or None, force or None, i["moment"] or None, preload.get("force"),
@@ -165,6 +168,11 @@ def _times(results: Results) -> "tuple[str, List[float]]":
         "step or cycle", list(range(len(steps))))
 
 
+def _place(step: Mapping[str, Any]) -> List[Any]:
+    """Step, cycle and time, as far as the scene has them."""
+    return [step["step"] or None, step["cycle"] if "adaptivity" in step else None, step.get("time")]
+
+
 def _by_name(results: Results, part: str, value: Any) -> List[Any]:
     """Curves of all bodies or interfaces."""
     names: Dict[str, None] = {}
@@ -192,7 +200,7 @@ def history(results: Results) -> str:
         if not _is_rounding(name, values, results):
             charts.append(curves(f"Components of {name}", label, x, [(c, [v[k] if k < len(v) else None for v in values])
                                                   for k, c in enumerate("xyz"[: max(map(len, values))])]))
-    rows = [[s["step"] or None, s["cycle"], s.get("time"), s["dofs"]["total"],
+    rows = [[*_place(s), s["dofs"]["total"],
              *(max((b[k]["value"] for b in s["bodies"] if k in b), default=None) for k in ("displacement_max", "von_mises_max")),
              _norm(s.get("equilibrium", {}).get("applied")), _norm(s.get("equilibrium", {}).get("sum"))] for s in results.steps]
     heading = ["step", "cycle", "time", "unknowns", "largest displacement", "largest von Mises", "loads", "loads + reactions"]
@@ -211,12 +219,12 @@ def convergence(results: Results) -> str:
     last, label_x = solved[-1]["solver"], _times(results)
     text = paragraph(f"Linear solver: {last['method']}" + (f"; {last['preconditioner']}" if last.get("preconditioner") else "") + ".")
     heading = ["step", "cycle", "time", "iterations", "residual", "active sets", "Newton iterations", "linear iterations"]
-    rows = [[s["step"] or None, s["cycle"], s.get("time"), *(s["solver"].get(k) for k in (
+    rows = [[*_place(s), *(s["solver"].get(k) for k in (
         "iterations", "relative_residual", "active_sets", "newton_iterations", "linear_iterations"))] for s in solved]
     text += _folded("All steps", table(heading, rows, 0, name="convergence"), len(rows))
     if len(solved) > 1 and len(solved) == len(results.steps):
         lines = [(name, [s["solver"].get(k) for s in solved]) for name, k in (
-            ("iterations of the last solve", "iterations"), ("active sets", "active_sets"), ("Newton iterations", "newton_iterations"))]
+            ("last linear solve", "iterations"), ("active sets", "active_sets"), ("Newton iterations", "newton_iterations"))]
         text += f'<div class="row"><div>{curves("Iterations", *label_x, lines)}</div>{_adaptivity_chart(results)}</div>'
     return text + _adaptivity(results) + _errors(results)
 
@@ -234,7 +242,7 @@ def _adaptivity_chart(results: Results) -> str:
 
 
 def _adaptivity(results: Results) -> str:
-    rows = [[s["step"] or None, s["cycle"], s["dofs"]["total"], *(s["adaptivity"].get(k) for k in (
+    rows = [[*_place(s)[:2], s["dofs"]["total"], *(s["adaptivity"].get(k) for k in (
         "target", "estimate", "estimate_bulk", "estimate_interface", "value", "effectivity"))]
         for s in results.steps if "adaptivity" in s]
     return "<h3>Target error</h3>" + _folded("All cycles", table(
@@ -245,7 +253,7 @@ def _adaptivity(results: Results) -> str:
 def _errors(results: Results) -> str:
     names = {"displacement_l2": "displacement, L2", "displacement_h1": "displacement, H1", "energy": "energy norm",
              "multiplier_l2": "traction, L2", "pressure_l2": "pressure, L2"}
-    rows = [[s["step"] or None, s["cycle"], s.get("time"), *(s["errors"].get(k) for k in names)] for s in results.steps if "errors" in s]
+    rows = [[*_place(s), *(s["errors"].get(k) for k in names)] for s in results.steps if "errors" in s]
     return "<h3>Relative errors against the exact solution</h3>" + _folded(
         "All steps", table(["step", "cycle", "time", *names.values()], rows, 0, name="errors"), len(rows)) if rows else ""
 
