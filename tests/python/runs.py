@@ -60,6 +60,9 @@ def steps():
     verdict(abs(tables["interfaces"]["force_z"]).max() > 3.9 and len(tables["bodies"]) == 6, "tables of interfaces and bodies")
     verdict([f.time for f in results.field_files("upper")] == [0.5, 1.0, 2.0], "files of fields with their times")
     verdict(abs(results.fields("upper", 1)["stress"][:, 8] - 1).max() < 1e-5, "the stress of a step, of the pieces of both ranks")
+    grid = results.fields("upper")
+    height = grid.points[grid.connectivity[grid.offsets - 1]][:, 2]
+    verdict(grid.offsets[-1] == len(grid.points) and len(grid.types) == 8 and list(height) == [1.25] * 4 + [1.75] * 4, "and their cells, whose last nodes are in the middle", height)
     outcomes = mortise.sweep(scene, {"Body lower/Material/Young modulus": [100, 50], "Steps/Step": ["1", "nonsense"]},
                              jobs=2, output="sweep")
     values = [o.results.quantity("end")[2] if o.results else type(o.error).__name__ for o in outcomes]

@@ -38,7 +38,7 @@ td.good { color: var(--good); } td.warn { color: var(--warn); font-weight: 600; 
 .facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(118px, 1fr)); gap: 12px; margin: 0 0 18px; }
 .facts div { background: #fff; border: 1px solid var(--line); border-radius: 8px; padding: 10px 14px; }
 .facts b { display: block; font-size: 20px; font-weight: 600; } .facts span { color: var(--dim); font-size: 13px; }
-.row { display: grid; grid-template-columns: repeat(auto-fit, minmax(440px, 1fr)); gap: 16px; }
+.row { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(440px, 100%), 1fr)); gap: 16px; }
 figure { margin: 0; } figure img { width: 100%; border: 1px solid var(--line); border-radius: 6px; display: block; }
 figcaption { font-size: 13px; color: var(--dim); margin-top: 4px; }
 .chart { width: 100%; max-width: 760px; height: auto; font-size: 12.5px; }
