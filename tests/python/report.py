@@ -21,7 +21,7 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self, file):
         super().__init__()
-        self.tables, self.sections, self.text, self.outside, self.open = {}, {}, "", [], []
+        self.tables, self.sections, self.text, self.outside, self.open, self.images = {}, {}, "", [], [], []
         self.section, self.rows, self.cell = "", None, None
         self.feed(file.read_text(encoding="utf-8"))
         self.whole = not self.open
@@ -30,7 +30,9 @@ class Page(html.parser.HTMLParser):
         given = dict(attributes)
         if tag not in ("meta", "link", "img", "path", "rect", "circle", "polyline"):
             self.open.append(tag)
-        if tag == "section":
+        if tag == "img":
+            self.images.append(given)
+        elif tag == "section":
             self.section = given["id"]
             self.sections[self.section] = ""
         elif tag == "table":
@@ -116,6 +118,17 @@ def of_steps():
         verdict(len(list(csv.DictReader(stream))) == n, "and in the file")
 
 
+def pictures():
+    mortise("--output", "drawn", source / "prm/patch.prm", check=True)
+    page = report("drawn")
+    if subprocess.run(["python3", "-c", "import pyvista"], capture_output=True).returncode:
+        verdict("pip install pyvista" in page.sections["pictures"], "without PyVista a note in place of pictures", page.sections["pictures"])
+        return
+    captions = [image["alt"].split(" (")[0] for image in page.images]
+    verdict(captions == ["Displacement", "Von Mises stress", "Traction of glue"], "pictures", captions)
+    verdict(all(len(image["src"]) > 10000 and image["src"].startswith("data:image/png;base64,iVBOR") for image in page.images), "drawn")
+
+
 def of_other_ends():
     done = mortise("--output", "failed", source / "prm/thick_sphere.prm", "--set", "Solver/Max iterations=2")
     page = report("failed")
@@ -158,6 +171,7 @@ def errors():
 
 of_run()
 of_steps()
+pictures()
 of_other_ends()
 errors()
 end()
