@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
+#include <mortise/problem/input/examples.h>
 #include <mortise/problem/input/parameter_schema.h>
 #include <mortise/problem/run_command.h>
 #include <mortise/problem/simulation.h>
@@ -73,6 +74,15 @@ namespace mortise
           if (prints)
             std::cout << parameter_reference_as_json();
           break;
+        case Action::example:
+          {
+            const std::string text = command.file.empty() ?
+                                       list_of_examples() :
+                                       write_example(command.file, comm);
+            if (prints)
+              std::cout << text;
+            break;
+          }
         default:
           run_scene(command, comm);
       }

@@ -61,6 +61,9 @@ main()
              "",
              {});
   check_line("report", {"--report", "some/where"}, Action::report, "", {});
+  check_line("examples", {"--example"}, Action::example, "", {});
+  check_line(
+    "an example", {"--example", "patch"}, Action::example, "patch", {});
   check_line("help", {"--help"}, Action::print_help, "", {});
   check_line("version", {"--version"}, Action::print_version, "", {});
   check_error("nothing", {}, {"a parameter file is needed", "usage: mortise"});
@@ -100,6 +103,7 @@ main()
                                    "--validate",
                                    "--report",
                                    "--parameters[=json]",
+                                   "--example",
                                    "--help",
                                    "--version"})
     all = all && help_text().find(option) != std::string::npos;

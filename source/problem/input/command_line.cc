@@ -16,6 +16,7 @@ namespace mortise
                                                    "--report",
                                                    "--validate",
                                                    "--parameters",
+                                                   "--example",
                                                    "--help",
                                                    "--version"};
 
@@ -51,7 +52,7 @@ namespace mortise
         fail(
           "got " + option +
           " and another option that asks for something else; allowed is one of "
-          "--validate, --parameters, --report, --help, --version");
+          "--validate, --parameters, --report, --example, --help, --version");
       line.action = action;
     }
 
@@ -116,6 +117,8 @@ namespace mortise
              "; allowed: " + join_names(option_names));
       else if (option == "--validate")
         set_action(line, Action::validate, option);
+      else if (option == "--example")
+        set_action(line, Action::example, option);
       else if (option == "--help" || option == "-h")
         set_action(line, Action::print_help, option);
       else if (option == "--version")
@@ -165,6 +168,9 @@ namespace mortise
            "  mortise --restart DIR [OPTION]...          go on from the last checkpoint in DIR\n"
            "  mortise --report DIR                       a page of the results: DIR/report.html\n"
            "  mortise --parameters[=json]                every parameter: default, unit, meaning\n"
+           "  mortise --example [NAME]                   list the scenes that come with the "
+           "program, or write\n"
+           "                                             one and its meshes here\n"
            "  mortise --help | --version\n"
            "\n"
            "Options:\n"
