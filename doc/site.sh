@@ -39,6 +39,7 @@ OUTPUT_DIRECTORY = pages/doc
 HTML_OUTPUT = headers
 QUIET = YES
 WARNINGS = NO
+HAVE_DOT = NO
 END
   doxygen Doxyfile
   printf '\n[Headers](headers/index.html), by Doxygen.\n' >>pages/doc/architecture.md

@@ -5,9 +5,14 @@
 # of this machine's apt, the sources are copied into it, and in there scenes are run and all tests. What the
 # scenes gave is compared with the first suite. Needs root, 6 GB and half an hour per suite; a second run
 # goes on with what is there. Not a part of `./run test`.
+#   tests/debian.sh --package DIRECTORY SUITE...
+# builds the package of Debian in each system in place of that, and installs and tries it in another fresh one. A
+# package that is there already in DIRECTORY/SUITE/packages is tried as it is.
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-[ $# -ge 2 ] || { sed -n '2,7s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 2; }
+package=no
+[ "${1:-}" != --package ] || { package=yes; shift; }
+[ $# -ge 2 ] || { sed -n '2,10s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 2; }
 for tool in debootstrap numdiff unshare; do
   command -v $tool >/dev/null || { echo "debian.sh: $tool is missing" >&2; exit 2; }
 done
@@ -24,9 +29,9 @@ mirror() {
     sort -u | head -n 1
 }
 
-# make SUITE: a minimal system
+# make SUITE [NAME]: a minimal system, in a directory of this name
 make() {
-  local root=$directory/$1
+  local root=$directory/${2:-$1}
   [ -e "$root/etc/apt/sources.list" ] && [ ! -e "$root/debootstrap" ] && return
   local uri=$(mirror)
   [ -n "$uri" ] || { apt-get update -qq && uri=$(mirror); }
@@ -60,8 +65,41 @@ compare() {
   [ "$1" = "$first" ] || numdiff -s ' \t\n,' -a 1e-9 -r "${tolerance[$2]}" "$directory/$first/results/$2/numbers" "$results/numbers"
 }
 
+# try_package SUITE: builds the package unless it is there; in a fresh system it has to install and run a scene on its own
+try_package() {
+  local root=$directory/$1
+  if ! ls "$root/packages/"mortise_*.deb >/dev/null 2>&1; then
+    make "$1"
+    mkdir -p "$root/mortise" "$root/packages"
+    (cd "$top" && git ls-files -z --cached --others --exclude-standard | tar -c --null -T -) | tar -x -C "$root/mortise"
+    inside "$1" "apt-get update -qq
+      DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends dpkg-dev file \$(sed -n '/^packages=(/,/)/p' run | tr -d '()' | sed 's/packages=//' | xargs)
+      cmake -S . -B build-portable -G Ninja -DCMAKE_BUILD_TYPE=Release
+      ninja -C build-portable
+      cd build-portable
+      cpack
+      cp *.deb /packages"
+  fi
+  rm -rf "$directory/$1-fresh"
+  make "$1" "$1-fresh"
+  mkdir -p "$directory/$1-fresh/mortise"
+  cp "$root/packages/"mortise_*.deb "$directory/$1-fresh"
+  inside "$1-fresh" "apt-get update -qq
+    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends /mortise_*.deb libopenblas0-pthread openmpi-bin
+    mortise --version
+    mortise --example fichera
+    mortise --validate fichera.prm
+    mortise --example thick_sphere
+    mortise thick_sphere.prm
+    OMPI_MCA_mpi_yield_when_idle=1 mpirun --allow-run-as-root --oversubscribe -n 2 mortise thick_sphere.prm"
+}
+
 first=$1 failed=0
 for suite in "$@"; do
+  if [ $package = yes ]; then
+    try_package "$suite" || failed=1
+    continue
+  fi
   root=$directory/$suite
   make "$suite"
   mkdir -p "$root/mortise"

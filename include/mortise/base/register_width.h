@@ -13,6 +13,13 @@ namespace mortise
   constexpr unsigned int register_width = 16;
 #endif
 
+#ifdef MORTISE_CORE_REGISTER_WIDTH
+  // what programs that use the installed library are compiled with
+  static_assert(register_width == MORTISE_CORE_REGISTER_WIDTH,
+                "libmortise_core was compiled for other processors: "
+                "compile with the same -march, without it if it has none");
+#endif
+
   /// Rows of a matrix whose sums for three components stay in registers, with
   /// what they are made of: there are 32 registers or 16.
   constexpr unsigned int n_register_rows = register_width == 64 ? 4 : 3;
