@@ -16,7 +16,6 @@ main(int argc, char *argv[])
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (const auto code = mortise::make_report_if_asked(arguments))
     return *code;
-  mortise::catch_lack_of_memory_in_threads();
   // PETSc, which deal.II may be built with, takes all arguments for its own
   int                                      n_for_libraries = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);

@@ -1,4 +1,5 @@
 #include <mortise/base/child_process.h>
+#include <mortise/base/error.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -7,7 +8,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -44,6 +48,24 @@ namespace mortise
         }
     }
 
+    /// A thread of a library in which nobody catches what it throws.
+    [[noreturn]] void
+    end_thread()
+    {
+      try
+        {
+          if (std::current_exception())
+            throw; // std::rethrow_exception() needs memory
+        }
+      catch (const std::bad_alloc &)
+        {
+          _exit(static_cast<int>(ExitCode::memory));
+        }
+      catch (...)
+        {}
+      std::abort();
+    }
+
     /// Does @p work and ends the process, without what the parent has to do at
     /// its end.
     [[noreturn]] void
@@ -53,10 +75,15 @@ namespace mortise
       for (const int number :
            {SIGINT, SIGTERM, SIGHUP, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
         std::signal(number, SIG_DFL);
+      std::set_terminate(end_thread);
       bool done = std::freopen("/dev/null", "w", stderr) != nullptr;
       try
         {
           done = done && write_all(file, work());
+        }
+      catch (const std::bad_alloc &)
+        {
+          _exit(static_cast<int>(ExitCode::memory));
         }
       catch (...)
         {
@@ -86,6 +113,8 @@ namespace mortise
     if (WIFSIGNALED(status))
       throw std::runtime_error(std::string("it crashed (") +
                                strsignal(WTERMSIG(status)) + ")");
+    if (WEXITSTATUS(status) == static_cast<int>(ExitCode::memory))
+      throw std::bad_alloc();
     if (status != 0)
       throw std::runtime_error("it ended before its work was done");
     return bytes;

@@ -5,12 +5,9 @@
 #include <mortise/base/interruption.h>
 #include <mortise/problem/guard.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
-#include <memory>
 #include <new>
 #include <ostream>
 #include <string>
@@ -48,37 +45,6 @@ namespace mortise
                    std::to_string(limit.rlim_cur >> 20) +
                    " MiB (ulimit -v): perhaps this limit can be raised.";
       return {ExitCode::memory, message};
-    }
-
-    std::terminate_handler  terminate_otherwise = nullptr;
-    std::string             no_memory; ///< the message
-    std::unique_ptr<char[]> reserve;   ///< for what ends the other ranks
-
-    void
-    end_if_out_of_memory()
-    {
-      try
-        {
-          if (std::current_exception())
-            throw; // std::rethrow_exception() needs memory
-        }
-      catch (const std::bad_alloc &)
-        {
-          reserve.reset();
-          constexpr int code = static_cast<int>(ExitCode::memory);
-          if (interruption::speak_first() &&
-              write(STDERR_FILENO, no_memory.data(), no_memory.size()) < 0)
-            _exit(code);
-          int is_initialised = 0;
-          MPI_Initialized(&is_initialised);
-          if (is_initialised &&
-              dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-            MPI_Abort(MPI_COMM_WORLD, code);
-          _exit(code);
-        }
-      catch (...)
-        {}
-      terminate_otherwise();
     }
 
     Outcome
@@ -138,14 +104,6 @@ namespace mortise
         }
     }
   } // namespace
-
-  void
-  catch_lack_of_memory_in_threads()
-  {
-    no_memory           = out_of_memory().message + "\n";
-    reserve             = std::make_unique<char[]>(4 << 20);
-    terminate_otherwise = std::set_terminate(end_if_out_of_memory);
-  }
 
   int
   run_guarded(const MPI_Comm               comm,

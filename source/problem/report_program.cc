@@ -1,7 +1,7 @@
 #include <mortise/base/error.h>
-#include <mortise/base/quotes.h>
 #include <mortise/problem/input/command_line.h>
 #include <mortise/problem/report_program.h>
+#include <mortise/problem/shared_files.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -15,21 +15,6 @@ namespace mortise
   namespace
   {
     namespace fs = std::filesystem;
-
-    /// Directories that may have the package: beside an installed program, and
-    /// where it was compiled.
-    std::vector<fs::path>
-    python_directories()
-    {
-      std::error_code ignored;
-      const fs::path  program = fs::read_symlink("/proc/self/exe", ignored);
-      std::vector<fs::path> directories;
-      if (!program.empty())
-        directories.push_back(program.parent_path().parent_path() /
-                              "share/mortise/python");
-      directories.push_back(MORTISE_PYTHON_DIRECTORY);
-      return directories;
-    }
 
     int
     fail(const std::string &message)
@@ -80,16 +65,13 @@ namespace mortise
       if (const char *rank = std::getenv(name);
           rank != nullptr && std::strcmp(rank, "0") != 0)
         return 0;
-    std::string sought;
-    for (const fs::path &directory : python_directories())
+    try
       {
-        if (std::error_code ignored;
-            fs::exists(directory / "mortise/report.py", ignored))
-          return run_python(directory, line.results);
-        sought +=
-          (sought.empty() ? "" : " and ") + file_in_quotes(directory.string());
+        return run_python(shared_directory("python"), line.results);
       }
-    return fail("the Python package that makes the page is neither in " +
-                sought);
+    catch (const InputError &error)
+      {
+        return fail(error.what());
+      }
   }
 } // namespace mortise

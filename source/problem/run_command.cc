@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
+#include <mortise/problem/boundary_list.h>
 #include <mortise/problem/input/examples.h>
 #include <mortise/problem/input/parameter_schema.h>
 #include <mortise/problem/run_command.h>
@@ -74,6 +75,14 @@ namespace mortise
           if (prints)
             std::cout << parameter_reference_as_json();
           break;
+        case Action::boundaries:
+          {
+            const std::string text =
+              list_boundaries(command.file, command.settings, comm);
+            if (prints)
+              std::cout << text;
+            break;
+          }
         case Action::example:
           {
             const std::string text = command.file.empty() ?

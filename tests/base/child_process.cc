@@ -6,8 +6,10 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace
 {
@@ -17,6 +19,10 @@ namespace
     try
       {
         mortise::in_child_process(work);
+      }
+    catch (const std::bad_alloc &)
+      {
+        return "no memory";
       }
     catch (const std::runtime_error &error)
       {
@@ -52,4 +58,12 @@ main()
   verdict(end_of([]() -> std::vector<char> { throw 1; }) ==
             "it ended before its work was done",
           "an exception is told");
+  verdict(end_of([]() -> std::vector<char> { throw std::bad_alloc(); }) ==
+            "no memory",
+          "a lack of memory is one here, too");
+  verdict(end_of([]() -> std::vector<char> {
+            std::thread([] { throw std::bad_alloc(); }).join();
+            return {};
+          }) == "no memory",
+          "one of a thread, too");
 }

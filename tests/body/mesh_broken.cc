@@ -438,7 +438,9 @@ Physical Surface("low") = {5};
     refused("a negative Mesh size", q, "Mesh size = -1; allowed: a positive");
     q           = broken("");
     q.mesh_size = 1.;
-    refused("Mesh size for a mesh", q, "allowed: nothing for a .msh");
+    refused("Mesh size for a mesh",
+            q,
+            "allowed: nothing for a file that is a mesh");
   }
 } // namespace
 

@@ -270,6 +270,58 @@ Physical Surface("zmax") = {a[0], b[0]};
     verdict(usable(both) && usable(inner), what + ": the same on all ranks");
   }
 
+  /// Meshes of other programs, written by gmsh: their names, their numbers, or
+  /// faces that are chosen by where they are.
+  void
+  check_foreign(const std::string &end, const int order)
+  {
+    const std::string what = end + ", order " + std::to_string(order);
+    const std::string geo =
+      write_file("foreign.geo",
+                 "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 2};\n"
+                 "Mesh.MeshSizeMax = 0.7;\nPhysical Volume(\"solid\") = {1};\n"
+                 "Physical Surface(\"left\") = {1};\n"
+                 "Physical Surface(\"low\") = {5};\n");
+    const std::string file = temporary_file("foreign." + end);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        gmsh::initialize(0, nullptr, false);
+        gmsh::option::setNumber("General.Terminal", 0);
+        gmsh::open(geo);
+        gmsh::model::mesh::generate(3);
+        gmsh::model::mesh::setOrder(order);
+        gmsh::write(file);
+        gmsh::finalize();
+      }
+    MPI_Barrier(MPI_COMM_WORLD);
+    mortise::MeshParameters q = file_parameters(file);
+    if (end != "unv")
+      q.boundaries = "left: plane x = 0; low: plane z = 0";
+    const CoarseMesh mesh = mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
+    verdict(std::abs(volume(mesh) - 2.) < 1e-9 &&
+              std::abs(area(mesh, "left") - 2.) < 1e-9 &&
+              std::abs(area(mesh, "low") - 1.) < 1e-9 &&
+              (mesh.geometry != nullptr) == (order == 2),
+            what + ": volume, and areas of boundaries",
+            text(volume(mesh)) + " " + text(area(mesh, "left")) + " " +
+              names(mesh));
+  }
+
+  void
+  check_foreign_files()
+  {
+    for (const std::string end : {"unv", "bdf", "vtk"})
+      for (const int order : {1, 2})
+        check_foreign(end, order);
+    refused("a damaged mesh of another program",
+            file_parameters(write_file("damaged.unv", "    -1\n  2411\n   x")),
+            "damaged.unv' ");
+    mortise::MeshParameters q =
+      file_parameters(write_file("sized.bdf", "BEGIN BULK\n"));
+    q.mesh_size = 1.;
+    refused("Mesh size of a mesh", q, "nothing for a file that is a mesh");
+  }
+
   void
   check_choice_of_cells()
   {
@@ -364,4 +416,5 @@ main(int argc, char **argv)
         }
   check_choice_of_cells();
   check_geometries();
+  check_foreign_files();
 }

@@ -61,6 +61,12 @@ main()
              "",
              {});
   check_line("report", {"--report", "some/where"}, Action::report, "", {});
+  check_line("boundaries",
+             {"--boundaries", "part.step", "--set", "Mesh size=2"},
+             Action::boundaries,
+             "part.step",
+             {"Mesh size=2"});
+  check_error("no mesh", {"--boundaries"}, {"needs a mesh or CAD file"});
   check_line("examples", {"--example"}, Action::example, "", {});
   check_line(
     "an example", {"--example", "patch"}, Action::example, "patch", {});
@@ -103,6 +109,7 @@ main()
                                    "--validate",
                                    "--report",
                                    "--parameters[=json]",
+                                   "--boundaries",
                                    "--example",
                                    "--help",
                                    "--version"})

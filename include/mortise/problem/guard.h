@@ -17,12 +17,6 @@ namespace mortise
     using std::runtime_error::runtime_error;
   };
 
-  /// From now on memory that runs out in a thread of a library, as gmsh has
-  /// them, ends the program as it does elsewhere: what a thread throws nobody
-  /// can catch.
-  void
-  catch_lack_of_memory_in_threads();
-
   /// Run @p program on every rank of @p comm and return the exit code of the
   /// process: 0, 2 after InputError, 3 after ConvergenceError, 4 when memory
   /// ran out, 1 after anything else. If any rank fails, one message (of the

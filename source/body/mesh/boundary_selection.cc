@@ -53,6 +53,8 @@ namespace mortise
                        v[d] < std::max(x[d], x[3 + d]) + rounding;
             return inside;
           });
+        if (condition.kind == "named")
+          return faces_of_names(condition.names);
         return faces_of_patches(condition);
       }
 
@@ -86,6 +88,25 @@ namespace mortise
         return chosen;
       }
 
+      std::set<std::size_t>
+      faces_of_names(const std::vector<std::string> &names) const
+      {
+        const auto           &faces = mesh.faces.boundary_quads;
+        std::set<std::size_t> chosen;
+        for (const std::string &name : names)
+          {
+            if (const auto set = mesh.overlapping_sets.find(name);
+                set != mesh.overlapping_sets.end())
+              chosen.insert(set->second.begin(), set->second.end());
+            if (const auto id = mesh.names.boundaries.find(name);
+                id != mesh.names.boundaries.end())
+              for (std::size_t f = 0; f < faces.size(); ++f)
+                if (faces[f].boundary_id == id->second)
+                  chosen.insert(f);
+          }
+        return chosen;
+      }
+
       bool
       fits(const SurfacePatch &patch, const FaceCondition &condition) const
       {
@@ -96,13 +117,6 @@ namespace mortise
         };
         if (condition.kind == "faces")
           return has(std::to_string(patch.number));
-        if (condition.kind == "named")
-          return std::any_of(mesh.names.boundaries.begin(),
-                             mesh.names.boundaries.end(),
-                             [&](const auto &name) {
-                               return name.second == patch.id &&
-                                      has(name.first);
-                             });
         // radii in drawings are rounded
         return patch.kind == condition.kind &&
                (condition.radius == 0. ||

@@ -226,7 +226,8 @@ namespace mortise
     {
       gmsh::open(file_name);
       GmshModel model;
-      model.surfaces_of_geometry = group_entities(2);
+      model.surfaces_of_geometry =
+        group_entities(2) && is_geometry_file(file_name);
       group_entities(3);
       if (mesh_size > 0.)
         gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
@@ -257,7 +258,8 @@ namespace mortise
                         "callbacks of both versions of gmsh");
           gmsh::model::mesh::setSizeCallback(least);
         }
-      gmsh::model::mesh::generate(3);
+      if (is_geometry_file(file_name))
+        gmsh::model::mesh::generate(3);
       model.surface_names                   = names(2);
       model.volume_names                    = names(3);
       const std::vector<unsigned int> place = read_nodes(model);
@@ -271,6 +273,13 @@ namespace mortise
   is_geometry_file(const std::string &file_name)
   {
     return extension(file_name) == "geo" || is_cad_file(file_name);
+  }
+
+  bool
+  is_foreign_mesh_file(const std::string &file_name)
+  {
+    const std::string end = extension(file_name);
+    return end == "unv" || end == "bdf" || end == "nas" || end == "vtk";
   }
 
   GmshElements

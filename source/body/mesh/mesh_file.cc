@@ -10,6 +10,7 @@
 #include <mortise/body/mesh/curved_boundaries.h>
 #include <mortise/body/mesh/mesh_file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -37,6 +38,12 @@ namespace mortise
     is_mesh_file(const std::string &file_name)
     {
       return std::filesystem::path(file_name).extension() == ".msh";
+    }
+
+    bool
+    is_inp_file(const std::string &file_name)
+    {
+      return std::filesystem::path(file_name).extension() == ".inp";
     }
 
     /// OpenCASCADE takes anything, and says so on the terminal.
@@ -74,7 +81,10 @@ namespace mortise
         fail("is empty");
       if (is_mesh_file(file))
         return read_msh(content, fail);
-      check_cad_content(file, content, fail);
+      if (is_inp_file(file))
+        return read_inp(content, fail);
+      if (is_geometry_file(file))
+        check_cad_content(file, content, fail);
       try
         {
           return mesh_geometry(file,
@@ -83,7 +93,9 @@ namespace mortise
         }
       catch (const std::runtime_error &error)
         {
-          fail("cannot be meshed; gmsh says: " + std::string(error.what()));
+          fail(std::string(is_geometry_file(file) ? "cannot be meshed" :
+                                                    "cannot be read") +
+               "; gmsh says: " + error.what());
         }
       return {};
     }
@@ -94,7 +106,7 @@ namespace mortise
                 const GmshModel  &model,
                 const FileError  &fail)
     {
-      if (mesh.names.boundaries.empty())
+      if (mesh.names.boundaries.empty() && mesh.overlapping_sets.empty())
         fail(
           "names no boundary" +
           std::string(
@@ -125,6 +137,42 @@ namespace mortise
       check_coinciding_nodes(mesh, fail);
       sort_cells(mesh);
       return mesh;
+    }
+
+    /// See MeshSurface::outer.
+    std::vector<std::vector<unsigned int>>
+    outer_faces(const CoarseMesh &mesh)
+    {
+      std::vector<std::vector<std::size_t>> cells_at(mesh.vertices.size());
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (const unsigned int v : mesh.cells[c].vertices)
+          cells_at[v].push_back(c);
+      std::vector<std::vector<unsigned int>> result;
+      for (const CellData<2> &face : mesh.faces.boundary_quads)
+        {
+          std::vector<unsigned int> around = face.vertices;
+          if (around.size() == 4)
+            std::swap(around[2], around[3]);
+          const auto &x = mesh.vertices;
+          for (const std::size_t c : cells_at[around[0]])
+            {
+              const auto &cell = mesh.cells[c].vertices;
+              if (!std::all_of(around.begin(), around.end(), [&](const auto v) {
+                    return std::count(cell.begin(), cell.end(), v) > 0;
+                  }))
+                continue;
+              Tensor<1, 3> inwards;
+              for (const unsigned int v : cell)
+                inwards += x[v] - x[around[0]];
+              if (cross_product_3d(x[around[1]] - x[around[0]],
+                                   x[around[2]] - x[around[0]]) *
+                    inwards >
+                  0.)
+                std::reverse(around.begin(), around.end());
+            }
+          result.push_back(around);
+        }
+      return result;
     }
 
     /// A coarse mesh on its way to other ranks.
@@ -229,22 +277,24 @@ namespace mortise
     if (file.empty())
       throw InputError(
         where +
-        ": Source = file needs File = the name of a gmsh file (.msh, .geo) or of a CAD file "
-        "(.step, .stp, .brep)");
-    if (!is_mesh_file(file) && !is_geometry_file(file))
+        ": Source = file needs File = the name of a mesh (.msh, .inp, .unv, .bdf, .nas, .vtk) or of a "
+        "geometry (.geo, .step, .stp, .brep)");
+    const bool is_meshed =
+      is_mesh_file(file) || is_inp_file(file) || is_foreign_mesh_file(file);
+    if (!is_meshed && !is_geometry_file(file))
       throw InputError(file_problem(
         where,
         file,
-        "has a name of no known format; allowed: .msh, .geo, .step, .stp, .brep"));
+        "has a name of no known format; allowed: .msh, .geo, .step, .stp, .brep, "
+        ".inp, .unv, .bdf, .nas, .vtk"));
     parse_boundaries(parameters.boundaries, where);
     const double size = parameters.mesh_size;
-    if (!(size >= 0.) || !std::isfinite(size) ||
-        (size > 0. && is_mesh_file(file)))
+    if (!(size >= 0.) || !std::isfinite(size) || (size > 0. && is_meshed))
       {
         std::ostringstream message;
         message << where << ": Mesh size = " << size << "; allowed: "
-                << (is_mesh_file(file) ?
-                      "nothing for a .msh file, which is meshed already" :
+                << (is_meshed ?
+                      "nothing for a file that is a mesh already" :
                       "a positive length, or 0 for what the geometry says");
         throw InputError(message.str());
       }
@@ -280,5 +330,20 @@ namespace mortise
     throw_if_any(problem, comm);
     move(mesh, rigid_motion(parameters));
     return mesh;
+  }
+
+  MeshSurface
+  read_surface(const MeshParameters &parameters, const std::string &where)
+  {
+    check_file_parameters(parameters, where);
+    const FileError fail = [&](const std::string &what) {
+      throw InputError(file_problem(where, parameters.file, what));
+    };
+    const GmshModel model = read_model(parameters, where);
+    MeshSurface     surface;
+    surface.mesh    = select_part(model, parameters, fail);
+    surface.patches = surface_patches(surface.mesh, model.surfaces_of_geometry);
+    surface.outer   = outer_faces(surface.mesh);
+    return surface;
   }
 } // namespace mortise

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <set>
 
 #include "mesh_file_parts.h"
@@ -185,39 +186,77 @@ namespace mortise
     }
   } // namespace
 
+  namespace
+  {
+    /// @p tags by index of the boundary face. Groups that overlap others become
+    /// overlapping_sets, the others boundaries.
+    void
+    name_disjoint_sets(const std::vector<std::set<int>> &tags,
+                       const GmshModel                  &model,
+                       CoarseMesh                       &mesh)
+    {
+      std::set<int> overlapping;
+      for (const std::set<int> &groups : tags)
+        if (groups.size() > 1)
+          overlapping.insert(groups.begin(), groups.end());
+      for (std::size_t f = 0; f < tags.size(); ++f)
+        for (const int group : tags[f])
+          {
+            const std::string &name = model.surface_names.at(group);
+            if (overlapping.count(group) > 0)
+              mesh.overlapping_sets[name].push_back(f);
+            else
+              mesh.faces.boundary_quads[f].boundary_id =
+                mesh.names.boundaries.emplace(name, group).first->second;
+          }
+      std::vector<std::string> names;
+      for (const auto &set : mesh.overlapping_sets)
+        names.push_back(set.first);
+      if (!names.empty())
+        mesh.remark =
+          "the sets " + join_names(names) +
+          " of the file share faces with others; Boundaries = " + names[0] +
+          ": named " + names[0] + "; ... makes boundaries of them";
+    }
+
+    [[noreturn]] void
+    fail_for_two_groups(const std::set<int>             &groups,
+                        const GmshModel                 &model,
+                        const std::vector<unsigned int> &face,
+                        const FileError                 &fail)
+    {
+      std::vector<std::string> names;
+      for (const int group : groups)
+        names.push_back(model.surface_names.at(group));
+      fail("has a face at " + place_name(model.nodes[face[0]]) + " in " +
+           std::to_string(names.size()) + " physical surfaces, " +
+           join_names(names) + "; allowed: one each");
+      std::abort(); // never
+    }
+  } // namespace
+
   void
   name_faces(const GmshModel &model, CoarseMesh &mesh, const FileError &fail)
   {
     const std::map<FaceKey, std::set<int>> tags  = surface_tags(model);
     const std::vector<OuterFace>           faces = all_faces(mesh);
     check_surface_elements(faces, model, fail);
+    std::vector<std::set<int>> groups_of_faces;
     for (const OuterFace &face : outer_faces(faces, model, fail))
       {
         CellData<2> data(face.vertices.size());
         data.vertices    = face.vertices;
         data.boundary_id = 0;
         const auto tag   = tags.find(face.key);
-        if (tag == tags.end())
-          {
-            mesh.faces.boundary_quads.push_back(data);
-            continue;
-          }
-        if (tag->second.size() > 1)
-          {
-            std::vector<std::string> names;
-            for (const int group : tag->second)
-              names.push_back(model.surface_names.at(group));
-            fail("has a face at " + place_name(model.nodes[face.vertices[0]]) +
-                 " in " + std::to_string(names.size()) +
-                 " physical surfaces, " + join_names(names) +
-                 "; allowed: one each");
-          }
-        const int          group = *tag->second.begin();
-        const std::string &name  = model.surface_names.at(group);
-        // groups of one name are one boundary
-        data.boundary_id =
-          mesh.names.boundaries.emplace(name, group).first->second;
+        groups_of_faces.push_back(tag == tags.end() ? std::set<int>() :
+                                                      tag->second);
+        if (groups_of_faces.back().size() > 1 && !model.surfaces_may_overlap)
+          fail_for_two_groups(groups_of_faces.back(),
+                              model,
+                              face.vertices,
+                              fail);
         mesh.faces.boundary_quads.push_back(data);
       }
+    name_disjoint_sets(groups_of_faces, model, mesh);
   }
 } // namespace mortise

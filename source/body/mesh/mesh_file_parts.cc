@@ -289,7 +289,8 @@ namespace mortise
         CoarseMesh mesh =
           select_part(cut_into_tetrahedra(model), of_tetrahedra, fail);
         mesh.remark = count_cells(blocks) + " are cut into " +
-                      std::to_string(mesh.cells.size()) + " tetrahedra";
+                      std::to_string(mesh.cells.size()) + " tetrahedra" +
+                      (mesh.remark.empty() ? "" : "; " + mesh.remark);
         return mesh;
       }
     CoarseMesh            mesh;

@@ -22,6 +22,14 @@ namespace mortise
   GmshModel
   read_msh(const std::string &content, const FileError &fail);
 
+  /// The mesh in the @p content of an input file of Abaqus or CalculiX (.inp):
+  /// nodes, solid elements, sets, surfaces. Sets of elements are groups of
+  /// volumes; surfaces, sets of shells and membranes, and sides of cells whose
+  /// nodes are all in a set of nodes are groups of surfaces, which may overlap.
+  /// Materials, steps and the like are passed over.
+  GmshModel
+  read_inp(const std::string &content, const FileError &fail);
+
   /// "(x, y, z)".
   std::string
   place_name(const dealii::Point<3> &x);

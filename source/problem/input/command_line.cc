@@ -16,6 +16,7 @@ namespace mortise
                                                    "--report",
                                                    "--validate",
                                                    "--parameters",
+                                                   "--boundaries",
                                                    "--example",
                                                    "--help",
                                                    "--version"};
@@ -52,7 +53,7 @@ namespace mortise
         fail(
           "got " + option +
           " and another option that asks for something else; allowed is one of "
-          "--validate, --parameters, --report, --example, --help, --version");
+          "--validate, --parameters, --report, --boundaries, --example, --help, --version");
       line.action = action;
     }
 
@@ -117,6 +118,8 @@ namespace mortise
              "; allowed: " + join_names(option_names));
       else if (option == "--validate")
         set_action(line, Action::validate, option);
+      else if (option == "--boundaries")
+        set_action(line, Action::boundaries, option);
       else if (option == "--example")
         set_action(line, Action::example, option);
       else if (option == "--help" || option == "-h")
@@ -152,6 +155,9 @@ namespace mortise
     if (line.action == Action::report && !line.file.empty())
       fail("got --report and the parameter file " + in_quotes(line.file) +
            "; allowed is one of them");
+    if (line.action == Action::boundaries && line.file.empty())
+      fail(
+        "--boundaries needs a mesh or CAD file, as in: mortise --boundaries part.step");
     if (needs_file && line.file.empty() && line.restart.empty())
       fail("a parameter file is needed, as in: mortise prm/thick_sphere.prm");
     return line;
@@ -168,6 +174,8 @@ namespace mortise
            "  mortise --restart DIR [OPTION]...          go on from the last checkpoint in DIR\n"
            "  mortise --report DIR                       a page of the results: DIR/report.html\n"
            "  mortise --parameters[=json]                every parameter: default, unit, meaning\n"
+           "  mortise --boundaries FILE                  list the faces of a mesh or "
+           "CAD file, with a picture\n"
            "  mortise --example [NAME]                   list the scenes that come with the "
            "program, or write\n"
            "                                             one and its meshes here\n"

@@ -5,6 +5,7 @@
 #include <mortise/output/whole_file.h>
 #include <mortise/problem/input/examples.h>
 #include <mortise/problem/input/parameter_file.h>
+#include <mortise/problem/shared_files.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -19,24 +20,6 @@ namespace mortise
   namespace
   {
     namespace fs = std::filesystem;
-
-    /// share/mortise beside one of the directories above the program: where it
-    /// is installed, and where it was built, a link to the sources.
-    fs::path
-    share_directory()
-    {
-      std::error_code error;
-      const fs::path  program = fs::read_symlink("/proc/self/exe", error);
-      for (fs::path above = program; above.has_relative_path();)
-        {
-          above = above.parent_path();
-          if (fs::is_directory(above / "share/mortise/prm", error))
-            return above / "share/mortise";
-        }
-      throw InputError("the scenes that come with the program are missing: "
-                       "no directory share/mortise/prm above " +
-                       file_in_quotes(program.string()));
-    }
 
     std::string
     text_of(const fs::path &file)
@@ -83,7 +66,7 @@ namespace mortise
     Files
     files_to_write(const std::string &name)
     {
-      const fs::path share = share_directory();
+      const fs::path share = shared_directory("prm").parent_path();
       const auto     names = names_of_examples(share / "prm");
       if (std::find(names.begin(), names.end(), name) == names.end())
         throw InputError("--example: no scene " + in_quotes(name) +
@@ -109,7 +92,7 @@ namespace mortise
   list_of_examples()
   {
     const std::regex title(R"((?:^|\n)set Title *= *(.*))");
-    const fs::path   scenes = share_directory() / "prm";
+    const fs::path   scenes = shared_directory("prm");
     std::string      list;
     for (const std::string &name : names_of_examples(scenes))
       {

@@ -11,8 +11,8 @@ namespace mortise
         "File",
         mesh.file,
         "For the source file: a mesh of gmsh (.msh, version 2.2 or 4.1, first or second "
-        "order), or a geometry that gmsh meshes (.geo, .step, .brep). Looked for in the "
-        "working directory, then beside the parameter file.",
+        "order), one of Abaqus or CalculiX (.inp) or of another program that gmsh reads (.unv, .bdf, .nas, .vtk), or a geometry that gmsh "
+        "meshes (.geo, .step, .brep). Looked for in the working directory, then beside the parameter file.",
         {"name of a file"});
       section.add(
         "Part",
@@ -29,10 +29,11 @@ namespace mortise
       section.add(
         "Boundaries",
         mesh.boundaries,
-        "Names for boundaries of a file, chosen by place and shape, before Rotate and Translate; they take their faces from the "
-        "boundaries that the file names. plane: faces in it; box: faces within it; cylinder, sphere, free: faces of a geometry, or "
-        "of a mesh those that meet smoothly, of that shape; near: the nearest of them, with what goes on on the same surface; faces: "
-        "by the numbers of mortise --boundaries FILE; named: boundaries of the file [lengths].",
+        {"Names for boundaries of a file, chosen by place and shape, before Rotate and Translate; they take their faces from the "
+         "boundaries that the file names. plane: faces in it; box: faces within it; cylinder, sphere, free: faces of a geometry, or "
+         "of a mesh those that meet smoothly, of that shape; near: the nearest of them, with what goes on on the same surface; faces: "
+         "by the numbers of mortise --boundaries FILE; named: boundaries of the file [].",
+         "length"},
         {"\"name: plane x = 1; name: plane through x, y, z normal nx, ny, nz; name: box x0, y0, z0, x1, y1, z1; name: cylinder "
          "[radius r] [near x, y, z]; name: sphere ...; name: free ...; name: faces 7, 9; name: named A, B; name: ... and ...\""});
       section.add(

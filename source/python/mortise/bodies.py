@@ -16,7 +16,9 @@ class Mesh(Section):
     source: Literal["box", "shell octant", "cylinder sector", "curved block", "file"] = parameter("Source", 'box', "selection")
     """Where the mesh comes from. Allowed: one of: box, shell octant, cylinder sector, curved block, file."""
     cells: Literal["auto", "hexahedra", "tetrahedra"] = parameter("Cells", 'auto', "selection")
-    """Shape of the cells. auto: that of the file; hexahedra from generators. Allowed: one of: auto, hexahedra, tetrahedra."""
+    """Shape of the cells. auto: that of a file of hexahedra or tetrahedra, else tetrahedra into which pyramids, wedges and
+    hexahedra of a file are cut; hexahedra from generators. tetrahedra: everything is cut. Allowed: one of: auto, hexahedra,
+    tetrahedra."""
     extent: Sequence[float] = parameter("Extent", (), "list of reals", "length")
     """Size of a generated body [length]. box and curved block: x0, y0, z0, x1, y1, z1 (of the whole block); shell octant: r_in,
     r_out; cylinder sector: r_in, r_out, length. Allowed: 2, 3 or 6 numbers, as the generator needs."""
@@ -30,13 +32,21 @@ class Mesh(Section):
     """Local refinement after Refinements: cells that reach into a ball are cut the given number of times [length], after Rotate
     and Translate. Allowed: "x, y, z, radius, times; ..."."""
     file: str = parameter("File", '', "text")
-    """For the source file: a mesh of gmsh (.msh, version 2.2 or 4.1, first or second order), or a geometry that gmsh meshes
-    (.geo, .step, .brep). Looked for in the working directory, then beside the parameter file. Allowed: name of a file."""
+    """For the source file: a mesh of gmsh (.msh, version 2.2 or 4.1, first or second order), one of Abaqus or CalculiX (.inp) or
+    of another program that gmsh reads (.unv, .bdf, .nas, .vtk), or a geometry that gmsh meshes (.geo, .step, .brep). Looked for
+    in the working directory, then beside the parameter file. Allowed: name of a file."""
     part: str = parameter("Part", '', "text")
     """The physical volume of the file that is this body. Empty: all. Allowed: name (or tag) of a physical volume."""
     mesh_size: float = parameter("Mesh size", 0.0, "real", "length")
     """Longest edge where gmsh meshes a geometry, and the value of mesh_size if a .geo file has DefineConstant[ mesh_size = ... ]
     [length]. 0: as the geometry specifies. Allowed: 0 or a positive number."""
+    boundaries: str = parameter("Boundaries", '', "text", "length")
+    """Names for boundaries of a file, chosen by place and shape, before Rotate and Translate; they take their faces from the
+    boundaries that the file names. plane: faces in it; box: faces within it; cylinder, sphere, free: faces of a geometry, or of a
+    mesh those that meet smoothly, of that shape; near: the nearest of them, with what goes on on the same surface; faces: by the
+    numbers of mortise --boundaries FILE; named: boundaries of the file [length]. Allowed: "name: plane x = 1; name: plane through
+    x, y, z normal nx, ny, nz; name: box x0, y0, z0, x1, y1, z1; name: cylinder [radius r] [near x, y, z]; name: sphere ...; name:
+    free ...; name: faces 7, 9; name: named A, B; name: ... and ..."."""
     curved_boundaries: str = parameter("Curved boundaries", '', "text", "length")
     """True shapes of boundaries of a file of first order, which refined cells and cells of higher degree follow, before Rotate
     and Translate; centre, axis (a point on it and a direction) and radius are fitted to the vertices where they are left out

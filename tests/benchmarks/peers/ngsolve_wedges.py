@@ -92,7 +92,7 @@ def main():
             height *= 1.5
         for degree in (1, 2, 3, 4):
             rows.append((f"boundary layer {thickness:g}", degree, 0.25, heights, layer))
-    print(__doc__.split("\n\n")[1] + "\n\nRegenerate: `tests/benchmarks/peers/ngsolve_wedges.py > doc/measurements/cut_cells.md` (NGSolve).\n")
+    print("# Wedges, and tetrahedra cut from them\n\n" + __doc__.split("\n\n")[1] + "\n\nRegenerate: `tests/benchmarks/peers/ngsolve_wedges.py > doc/measurements/cut_cells.md` (NGSolve).\n")
     print("| mesh | p | h | unknowns | error of wedges | of tetrahedra | ratio |\n|---|---|---|---|---|---|---|")
     for name, degree, h, heights, u in rows:
         (n, wedges), (m, tetrahedra) = (error(extrude(h, heights, cut_them), degree, u) for cut_them in (False, True))

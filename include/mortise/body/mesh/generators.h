@@ -10,6 +10,7 @@
 #include <mortise/body/mesh/mesh_source.h>
 #include <mortise/body/mesh/surfaces.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,6 +36,10 @@ namespace mortise
     /// Curved geometry of second-order cells, moved like the vertices; none:
     /// the cells are of first order.
     std::shared_ptr<const CoarseGeometry> geometry;
+
+    /// Indices into faces.boundary_quads by the name of a set of the file that
+    /// overlaps another one, so that it is no boundary by itself.
+    std::map<std::string, std::vector<std::size_t>> overlapping_sets;
 
     std::string remark; ///< what became of the cells of a file; empty: nothing
   };

@@ -58,6 +58,9 @@ namespace mortise
     /// The groups of surfaces are those of a geometry, each on its own.
     bool surfaces_of_geometry = false;
 
+    /// A face may be in several groups of surfaces (.inp).
+    bool surfaces_may_overlap = false;
+
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)
@@ -72,16 +75,21 @@ namespace mortise
   bool
   is_geometry_file(const std::string &file_name);
 
+  /// Does it end like a mesh that gmsh's library reads for us (.unv, .bdf,
+  /// .nas, .vtk)?
+  bool
+  is_foreign_mesh_file(const std::string &file_name);
+
   /// Dimension, order and reference element of gmsh's element type @p type,
   /// which exists.
   GmshElements
   describe_gmsh_elements(int type);
 
-  /// Mesh the geometry @p file_name with edges of at most @p mesh_size if that
+  /// Read the mesh, or mesh the geometry, @p file_name, the latter with edges of at most @p mesh_size if that
   /// is positive, and that number for the constant mesh_size of a .geo file,
-  /// and of at most @p sizes if it is not null. Surfaces and volumes of a .step
-  /// or .brep file are physical groups of their own. Throws std::runtime_error
-  /// with what gmsh says, or that it crashed.
+  /// and of at most @p sizes if it is not null. Where there
+  /// are no physical groups every surface and volume is one. Throws
+  /// std::runtime_error with what gmsh says, or that it crashed.
   GmshModel
   mesh_geometry(const std::string &file_name,
                 double             mesh_size,

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <mortise/body/mesh/generators.h>
+#include <mortise/body/mesh/surface_patches.h>
 #include <mpi.h>
 
 #include <string>
+#include <vector>
 
 namespace mortise
 {
@@ -36,4 +38,18 @@ namespace mortise
   read_mesh_file(const MeshParameters &parameters,
                  const std::string    &where,
                  MPI_Comm              comm);
+
+  /// The surface of a mesh as a file has it.
+  struct MeshSurface
+  {
+    CoarseMesh                mesh;
+    std::vector<SurfacePatch> patches;
+    /// Vertices around each boundary face, to the left seen from outside.
+    std::vector<std::vector<unsigned int>> outer;
+  };
+
+  /// The surface of what read_mesh_file() would read, also where that would
+  /// refuse the cells or names of the file. On one rank; throws InputError.
+  MeshSurface
+  read_surface(const MeshParameters &parameters, const std::string &where);
 } // namespace mortise

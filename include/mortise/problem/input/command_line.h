@@ -17,13 +17,14 @@ namespace mortise
       print_parameters, ///< every parameter with default, unit and meaning
       print_parameters_as_json, ///< the same for programs
       report,                   ///< a page of the results in a directory
+      boundaries,               ///< list the faces of a mesh or CAD file
       example, ///< list the scenes that come with the program, or write one
       print_help,
       print_version
     };
 
     Action      action = Action::run;
-    std::string file;    ///< the parameter file, or the name of an example
+    std::string file; ///< the parameter file, a mesh, or the name of an example
     std::string restart; ///< directory of a checkpoint, instead of a file
     std::string results; ///< directory of the report
     Settings settings; ///< --set and --output, in the order of the command line

@@ -1,0 +1,258 @@
+// Meshes of Abaqus and CalculiX: all shapes of both orders in their own order
+// of nodes, sets and surfaces as names of parts and boundaries, and what is
+// told of files that are wrong.
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <mortise/body/elements/simplex_quadrature.h>
+#include <verdict.h>
+
+#include <cmath>
+
+#include "gmsh_meshes.h"
+
+using namespace dealii;
+using namespace gmsh_test;
+using mortise::CoarseMesh;
+
+namespace
+{
+  /// x + bend(x), of degree 2 in all.
+  Point<3>
+  bent(const Point<3> &x)
+  {
+    return {x[0] + 0.2 * x[1] * x[2],
+            x[1] + 0.3 * x[2] * x[2],
+            x[2] + 0.2 * x[0] * x[0] - 0.1 * x[0] * x[1]};
+  }
+
+  double
+  bent_determinant(const Point<3> &x)
+  {
+    Tensor<2, 3> J;
+    J[0] = Point<3>(1., 0.2 * x[2], 0.2 * x[1]);
+    J[1] = Point<3>(0., 1., 0.6 * x[2]);
+    J[2] = Point<3>(0.4 * x[0] - 0.1 * x[1], -0.1 * x[0], 1.);
+    return determinant(J);
+  }
+
+  /// A cube, a wedge on its right side, a tetrahedron on top of the wedge, with
+  /// middles of edges, as Abaqus orders them.
+  struct Deck
+  {
+    std::vector<Point<3>>                  vertices = {{0, 0, 0},
+                                                       {1, 0, 0},
+                                                       {1, 1, 0},
+                                                       {0, 1, 0},
+                                                       {0, 0, 1},
+                                                       {1, 0, 1},
+                                                       {1, 1, 1},
+                                                       {0, 1, 1},
+                                                       {2, 0, 0},
+                                                       {2, 0, 1},
+                                                       {1, 0, 2}};
+    std::vector<std::vector<unsigned int>> cells    = {{1, 2, 3, 4, 5, 6, 7, 8},
+                                                       {2, 9, 3, 6, 10, 7},
+                                                       {6, 10, 7, 11}};
+  };
+
+  const std::vector<std::vector<std::array<unsigned int, 2>>> edges = {
+    {{0, 1},
+     {1, 2},
+     {2, 3},
+     {3, 0},
+     {4, 5},
+     {5, 6},
+     {6, 7},
+     {7, 4},
+     {0, 4},
+     {1, 5},
+     {2, 6},
+     {3, 7}},
+    {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
+    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
+
+  std::string
+  deck_text(const bool quadratic)
+  {
+    const Deck            deck;
+    std::vector<Point<3>> nodes = deck.vertices;
+    std::map<std::pair<unsigned int, unsigned int>, unsigned> middles;
+    std::ostringstream                                        elements;
+    const char *const types[2][3] = {{"C3D8", "C3D6", "C3D4"},
+                                     {"C3D20R", "C3D15", "C3D10M"}};
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        elements << "*Element, type=" << types[quadratic][c]
+                 << ", elset=" << (c == 0 ? "Brick" : "rest") << "\n"
+                 << 10 * (c + 1);
+        unsigned int n = 0;
+        for (const unsigned int v : deck.cells[c])
+          elements << (++n % 8 == 0 ? ",\n" : ", ") << v;
+        for (const auto &edge : edges[c])
+          if (quadratic)
+            {
+              const auto key =
+                std::minmax(deck.cells[c][edge[0]], deck.cells[c][edge[1]]);
+              const auto place = middles.emplace(key, nodes.size() + 1);
+              if (place.second)
+                nodes.push_back(nodes[key.first - 1] +
+                                (nodes[key.second - 1] - nodes[key.first - 1]) /
+                                  2.);
+              elements << (++n % 8 == 0 ? ",\n" : ", ") << place.first->second;
+            }
+        elements << "\n";
+      }
+    std::ostringstream text;
+    text.precision(17);
+    text << "*Heading\n** a comment\n*NODE, NSET=Nall\n";
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      text << i + 1 << ", " << bent(nodes[i])[0] << ", " << bent(nodes[i])[1]
+           << ",\t" << bent(nodes[i])[2] << "\n";
+    return text.str() + elements.str() +
+           "*NSET, NSET=Foot\n1, 2, 3,\n4\n"
+           "*NSET, nset=Left\n1, 4, 5, 8\n*NSET, NSET=Under\nFoot, 9\n"
+           "*ELSET, ELSET=lid, GENERATE\n30, 1000000000, 10\n"
+           "*SURFACE, NAME=Load\nlid, S4\n"
+           "*SURFACE, NAME=Front, TYPE=ELEMENT\n10, S3\nrest, S3\n"
+           "*MATERIAL, NAME=steel\n*ELASTIC\n210000, 0.3\n*STEP\n*END STEP\n";
+  }
+
+  double
+  volume(const CoarseMesh &mesh)
+  {
+    const Quadrature<3> rule = mortise::simplex_quadrature<3>(8);
+    double              sum  = 0.;
+    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const auto  &v = mesh.cells[c].vertices;
+          const auto  &x = mesh.vertices;
+          Tensor<2, 3> J;
+          for (unsigned int d = 0; d < 3; ++d)
+            J[d] = x[v[d + 1]] - x[v[0]];
+          sum += rule.weight(q) *
+                 determinant(mesh.geometry ?
+                               mesh.geometry->jacobian(c, rule.point(q)) :
+                               J);
+        }
+    return sum;
+  }
+
+  /// Of the bent cube, wedge and tetrahedron.
+  double
+  exact_volume()
+  {
+    double          sum = 0.;
+    const QGauss<3> cube(3);
+    for (unsigned int q = 0; q < cube.size(); ++q)
+      sum += cube.weight(q) * bent_determinant(cube.point(q));
+    const QGauss<3> collapsed(4);
+    for (unsigned int q = 0; q < collapsed.size(); ++q)
+      {
+        // (s, t (1 - s)) in the triangle of the wedge
+        const Point<3> &y = collapsed.point(q);
+        sum += collapsed.weight(q) * (1. - y[0]) *
+               bent_determinant({1. + y[0], y[1] * (1. - y[0]), y[2]});
+      }
+    const Quadrature<3> tetrahedron = mortise::simplex_quadrature<3>(8);
+    for (unsigned int q = 0; q < tetrahedron.size(); ++q)
+      sum += tetrahedron.weight(q) *
+             bent_determinant(Point<3>(1., 0., 1.) +
+                              Tensor<1, 3>(tetrahedron.point(q)));
+    return sum;
+  }
+
+  unsigned int
+  n_faces(const CoarseMesh &mesh, const std::string &name)
+  {
+    unsigned int n = 0;
+    for (const CellData<2> &face : mesh.faces.boundary_quads)
+      n += mesh.names.boundaries.count(name) > 0 &&
+           face.boundary_id == mesh.names.boundaries.at(name);
+    return n;
+  }
+
+  std::string
+  counts(const CoarseMesh &mesh)
+  {
+    std::string text;
+    for (const auto &name : mesh.names.boundaries)
+      text +=
+        " " + name.first + " " + std::to_string(n_faces(mesh, name.first));
+    return text;
+  }
+
+  void
+  check_deck(const bool quadratic)
+  {
+    const std::string       what = quadratic ? "second order" : "first order";
+    mortise::MeshParameters q =
+      file_parameters(write_file("deck.inp", deck_text(quadratic)));
+    q.boundaries          = "edge: named Under";
+    const CoarseMesh mesh = mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
+    verdict(
+      mesh.cells.size() == 6 + 3 + 1 &&
+        (!quadratic || std::fabs(volume(mesh) / exact_volume() - 1.) < 1e-13),
+      what + ": all shapes" + (quadratic ? ", volume to 1e-13" : ""),
+      std::to_string(volume(mesh)) + " " + std::to_string(exact_volume()));
+    verdict(n_faces(mesh, "Load") == 1 && n_faces(mesh, "Front") == 5 &&
+              n_faces(mesh, "edge") == 3 && n_faces(mesh, "Left") == 2,
+            what + ": surfaces by sides of elements and by sets of nodes",
+            counts(mesh));
+    q.part       = "brick";
+    q.boundaries = "";
+    refused("names keep their case", q, "it has: Brick (hexahedra)");
+    q.part                 = "Brick";
+    const CoarseMesh brick = mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
+    verdict(brick.cells.size() == 1 && brick.cells[0].vertices.size() == 8 &&
+              brick.remark.find("the sets Foot, Under of the file share") ==
+                0 &&
+              n_faces(brick, "Left") == 1 && n_faces(brick, "Load") == 0,
+            what + ": a set of elements is a part; sets that overlap are told",
+            brick.remark + counts(brick));
+  }
+
+  void
+  check_refusals()
+  {
+    const std::string nodes  = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
+    const std::string cell   = "*ELEMENT, TYPE=C3D4, ELSET=e\n1, 1, 2, 3, 4\n";
+    const auto        refuse = [](const std::string &what,
+                           const std::string &text,
+                           const std::string &fragment) {
+      refused(what, file_parameters(write_file("wrong.inp", text)), fragment);
+    };
+    refuse("no element", nodes, "holds no *ELEMENT");
+    refuse("a part", "*PART, NAME=p\n" + nodes, "in line 1 the keyword *PART");
+    refuse("a coordinate", "*NODE\n1, 0, x, 0\n", "in line 2 'x', which is no");
+    refuse("a node twice",
+           nodes + "1,0,0,0\n",
+           "in line 6 the node 1 a second time");
+    refuse("an unknown node",
+           nodes + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 5\n",
+           "in line 7 the node 5, which the file does not have before it");
+    refuse("too few nodes",
+           nodes + "*ELEMENT, TYPE=C3D4\n1, 1, 2\n*STEP\n",
+           "an element with fewer than 4 nodes");
+    refuse("another solid",
+           nodes + "*ELEMENT, TYPE=C3D27\n",
+           "in line 6 elements of type C3D27; allowed: C3D4");
+    refuse("a side that is none",
+           nodes + cell + "*SURFACE, NAME=s\n1, S5\n",
+           "the side S5 of element 1, which has none such");
+    refuse("a set that is none",
+           nodes + cell + "*SURFACE, NAME=s\nx, S1\n",
+           "in line 9 the set 'x', which the file does not have");
+    refuse("nothing to refer to", nodes + cell, "names no boundary");
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_deck(false);
+  check_deck(true);
+  check_refusals();
+}
