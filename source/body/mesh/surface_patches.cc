@@ -198,13 +198,14 @@ namespace mortise
       constexpr double largest = std::numeric_limits<double>::max();
       patch.low                = Point<3>(largest, largest, largest);
       patch.high               = -1. * patch.low;
-      Tensor<1, 3> moment;
+      Tensor<1, 3> moment, sum;
       for (const std::size_t f : patch.faces)
         {
           const CellData<2> &face = mesh.faces.boundary_quads[f];
           const double       area = area_vector(mesh, face).norm();
           patch.area += area;
           moment += area * middle(mesh, face);
+          sum += middle(mesh, face);
           for (const unsigned int v : face.vertices)
             for (unsigned int d = 0; d < 3; ++d)
               {
@@ -212,7 +213,10 @@ namespace mortise
                 patch.high[d] = std::max(patch.high[d], mesh.vertices[v][d]);
               }
         }
-      patch.centre = Point<3>(moment / patch.area);
+      // a broken mesh may have a face without area
+      patch.centre = patch.area > 0. ?
+                       Point<3>(moment / patch.area) :
+                       Point<3>(sum / double(patch.faces.size()));
     }
   } // namespace
 
