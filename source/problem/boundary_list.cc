@@ -1,13 +1,12 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
-#include <mortise/base/numbers.h>
-#include <mortise/base/quotes.h>
 #include <mortise/body/mesh/mesh_file.h>
 #include <mortise/output/face_picture.h>
 #include <mortise/output/vtu_file.h>
 #include <mortise/output/whole_file.h>
 #include <mortise/problem/boundary_list.h>
+#include <mortise/problem/mesh_request.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,42 +19,6 @@ namespace mortise
 
   namespace
   {
-    struct Request
-    {
-      MeshParameters mesh;
-      std::string    directory = ".";
-    };
-
-    Request
-    read_request(const std::string &file, const Settings &settings)
-    {
-      Request request;
-      request.mesh.source = "file";
-      request.mesh.file   = file;
-      for (const std::string &setting : settings)
-        {
-          const std::size_t equals = setting.find('=');
-          const std::string name   = setting.substr(0, equals);
-          const std::string value  = setting.substr(equals + 1);
-          if (name == "Output/Directory")
-            request.directory = value;
-          else if (name == "Part")
-            request.mesh.part = value;
-          else if (name == "Mesh size")
-            {
-              const ReadNumber number = read_number(value);
-              if (!number.problem.empty())
-                throw InputError("--set: Mesh size = " + shortened(value) +
-                                 " is no number; allowed: a positive length");
-              request.mesh.mesh_size = number.value;
-            }
-          else
-            throw InputError("--boundaries with --set " + in_quotes(setting) +
-                             "; allowed: \"Mesh size=...\" and \"Part=...\"");
-        }
-      return request;
-    }
-
     std::string
     point_text(const Point<3> &x, const double size)
     {
@@ -74,25 +37,6 @@ namespace mortise
         if (named_id == id)
           return name;
       return "";
-    }
-
-    /// Columns with blanks between them.
-    std::string
-    table(const std::vector<std::vector<std::string>> &rows)
-    {
-      std::vector<std::size_t> widths(rows.front().size(), 0);
-      for (const auto &row : rows)
-        for (std::size_t c = 0; c < row.size(); ++c)
-          widths[c] = std::max(widths[c], row[c].size());
-      std::string text;
-      for (const auto &row : rows)
-        {
-          std::string line;
-          for (std::size_t c = 0; c < row.size(); ++c)
-            line += "  " + row[c] + std::string(widths[c] - row[c].size(), ' ');
-          text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-        }
-      return text;
     }
 
     /// Numbers of faces by boundary face of the mesh.
@@ -173,7 +117,8 @@ namespace mortise
       return file + ": " + std::to_string(surface.mesh.cells.size()) +
              " cells in a box from " + point_text(low, size) + " to " +
              point_text(high, size) + "; parts: " + parts +
-             "\nAreas are those of flat faces of the mesh.\n\n" + table(rows);
+             "\nAreas are those of flat faces of the mesh.\n\n" +
+             text_table(rows);
     }
   } // namespace
 
@@ -182,8 +127,9 @@ namespace mortise
                   const Settings    &settings,
                   const MPI_Comm     comm)
   {
-    const Request     request = read_request(file, settings);
-    const bool        reads   = Utilities::MPI::this_mpi_process(comm) == 0;
+    const MeshRequest request =
+      read_mesh_request("--boundaries", file, settings);
+    const bool        reads = Utilities::MPI::this_mpi_process(comm) == 0;
     const std::string start =
       (std::filesystem::path(request.directory) /
        (std::filesystem::path(file).stem().string() + "-faces"))

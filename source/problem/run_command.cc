@@ -5,6 +5,7 @@
 #include <mortise/problem/boundary_list.h>
 #include <mortise/problem/input/examples.h>
 #include <mortise/problem/input/parameter_schema.h>
+#include <mortise/problem/pair_list.h>
 #include <mortise/problem/run_command.h>
 #include <mortise/problem/simulation.h>
 
@@ -76,9 +77,12 @@ namespace mortise
             std::cout << parameter_reference_as_json();
           break;
         case Action::boundaries:
+        case Action::pairs:
           {
             const std::string text =
-              list_boundaries(command.file, command.settings, comm);
+              (command.action == Action::pairs ?
+                 list_pairs :
+                 list_boundaries)(command.file, command.settings, comm);
             if (prints)
               std::cout << text;
             break;

@@ -56,7 +56,6 @@ main(int argc, char *argv[])
   if (argc != 2)
     return 2;
   mortise::prepare_process(argv);
-  mortise::catch_lack_of_memory_in_threads();
   int                                      n_for_libraries = 1;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);
   mortise::interruption::catch_signals();

@@ -74,7 +74,7 @@ main(int argc, char **argv)
             "refused: " + setting,
             message);
   };
-  refused("Degree=2", "allowed: \"Mesh size=...\" and \"Part=...\"");
-  refused("Mesh size=x", "is no number");
+  refused("Degree=2", "allowed: \"Mesh size=...\", \"Part=...\" and");
+  refused("Mesh size=x", "allowed: a positive length");
   refused("Part=shaft", "has no physical volume 'shaft'");
 }

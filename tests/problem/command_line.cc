@@ -66,7 +66,7 @@ main()
              Action::boundaries,
              "part.step",
              {"Mesh size=2"});
-  check_error("no mesh", {"--boundaries"}, {"needs a mesh or CAD file"});
+  check_error("no mesh", {"--boundaries"}, {"a mesh or CAD file is needed"});
   check_line("examples", {"--example"}, Action::example, "", {});
   check_line(
     "an example", {"--example", "patch"}, Action::example, "patch", {});
@@ -110,6 +110,7 @@ main()
                                    "--report",
                                    "--parameters[=json]",
                                    "--boundaries",
+                                   "--pairs",
                                    "--example",
                                    "--help",
                                    "--version"})

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 #include "mesh_file_parts.h"
@@ -332,18 +333,53 @@ namespace mortise
     return mesh;
   }
 
+  namespace
+  {
+    MeshSurface
+    surface_of(const GmshModel      &model,
+               const MeshParameters &parameters,
+               const std::string    &where)
+    {
+      MeshSurface surface;
+      surface.mesh =
+        select_part(model, parameters, [&](const std::string &what) {
+          throw InputError(file_problem(where, parameters.file, what));
+        });
+      surface.patches =
+        surface_patches(surface.mesh, model.surfaces_of_geometry);
+      surface.outer = outer_faces(surface.mesh);
+      return surface;
+    }
+  } // namespace
+
   MeshSurface
   read_surface(const MeshParameters &parameters, const std::string &where)
   {
     check_file_parameters(parameters, where);
-    const FileError fail = [&](const std::string &what) {
-      throw InputError(file_problem(where, parameters.file, what));
-    };
-    const GmshModel model = read_model(parameters, where);
-    MeshSurface     surface;
-    surface.mesh    = select_part(model, parameters, fail);
-    surface.patches = surface_patches(surface.mesh, model.surfaces_of_geometry);
-    surface.outer   = outer_faces(surface.mesh);
-    return surface;
+    return surface_of(read_model(parameters, where), parameters, where);
+  }
+
+  std::vector<MeshSurface>
+  read_parts(const MeshParameters &parameters, const std::string &where)
+  {
+    check_file_parameters(parameters, where);
+    const GmshModel          model = read_model(parameters, where);
+    std::vector<MeshSurface> parts;
+    std::set<std::string>    known;
+    for (const auto &[tag, name] : model.volume_names)
+      if (known.insert(name).second)
+        {
+          MeshParameters part = parameters;
+          part.part           = name;
+          parts.push_back(surface_of(model, part, where));
+        }
+    if (parts.size() < 2)
+      throw InputError(file_problem(
+        where,
+        parameters.file,
+        "has " + std::to_string(parts.size()) +
+          " bodies (physical volumes, or solids of a CAD file); allowed: two or "
+          "more"));
+    return parts;
   }
 } // namespace mortise

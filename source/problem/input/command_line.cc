@@ -17,6 +17,7 @@ namespace mortise
                                                    "--validate",
                                                    "--parameters",
                                                    "--boundaries",
+                                                   "--pairs",
                                                    "--example",
                                                    "--help",
                                                    "--version"};
@@ -53,7 +54,7 @@ namespace mortise
         fail(
           "got " + option +
           " and another option that asks for something else; allowed is one of "
-          "--validate, --parameters, --report, --boundaries, --example, --help, --version");
+          "--validate, --parameters, --report, --boundaries, --pairs, --example, --help, --version");
       line.action = action;
     }
 
@@ -120,6 +121,8 @@ namespace mortise
         set_action(line, Action::validate, option);
       else if (option == "--boundaries")
         set_action(line, Action::boundaries, option);
+      else if (option == "--pairs")
+        set_action(line, Action::pairs, option);
       else if (option == "--example")
         set_action(line, Action::example, option);
       else if (option == "--help" || option == "-h")
@@ -155,9 +158,10 @@ namespace mortise
     if (line.action == Action::report && !line.file.empty())
       fail("got --report and the parameter file " + in_quotes(line.file) +
            "; allowed is one of them");
-    if (line.action == Action::boundaries && line.file.empty())
+    if ((line.action == Action::boundaries || line.action == Action::pairs) &&
+        line.file.empty())
       fail(
-        "--boundaries needs a mesh or CAD file, as in: mortise --boundaries part.step");
+        "a mesh or CAD file is needed, as in: mortise --boundaries part.step");
     if (needs_file && line.file.empty() && line.restart.empty())
       fail("a parameter file is needed, as in: mortise prm/thick_sphere.prm");
     return line;
@@ -176,6 +180,9 @@ namespace mortise
            "  mortise --parameters[=json]                every parameter: default, unit, meaning\n"
            "  mortise --boundaries FILE                  list the faces of a mesh or "
            "CAD file, with a picture\n"
+           "  mortise --pairs FILE                       list faces of its bodies that "
+           "lie opposite each\n"
+           "                                             other, and write a scene\n"
            "  mortise --example [NAME]                   list the scenes that come with the "
            "program, or write\n"
            "                                             one and its meshes here\n"

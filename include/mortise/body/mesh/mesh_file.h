@@ -52,4 +52,8 @@ namespace mortise
   /// refuse the cells or names of the file. On one rank; throws InputError.
   MeshSurface
   read_surface(const MeshParameters &parameters, const std::string &where);
+
+  /// The same of each part of the file, in the order of their numbers.
+  std::vector<MeshSurface>
+  read_parts(const MeshParameters &parameters, const std::string &where);
 } // namespace mortise

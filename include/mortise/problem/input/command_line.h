@@ -18,6 +18,7 @@ namespace mortise
       print_parameters_as_json, ///< the same for programs
       report,                   ///< a page of the results in a directory
       boundaries,               ///< list the faces of a mesh or CAD file
+      pairs,   ///< list faces of its bodies that lie opposite each other
       example, ///< list the scenes that come with the program, or write one
       print_help,
       print_version
