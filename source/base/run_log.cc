@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/run_log.h>
+#include <mortise/base/text_table.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -72,23 +73,9 @@ namespace mortise
   void
   RunLog::table(const std::vector<std::vector<std::string>> &rows)
   {
-    std::vector<std::size_t> widths;
-    for (const auto &row : rows)
-      {
-        widths.resize(std::max(widths.size(), row.size()), 0);
-        for (std::size_t c = 0; c < row.size(); ++c)
-          widths[c] = std::max(widths[c], row[c].size());
-      }
-    for (const auto &row : rows)
-      {
-        std::ostringstream text;
-        for (std::size_t c = 0; c < row.size(); ++c)
-          text << "  " << (c == 0 ? std::left : std::right)
-               << std::setw(widths[c]) << row[c];
-        std::string trimmed = text.str();
-        trimmed.erase(trimmed.find_last_not_of(' ') + 1);
-        line(trimmed);
-      }
+    std::istringstream lines(text_table(rows, true));
+    for (std::string text; std::getline(lines, text);)
+      line(text);
   }
 
   std::string

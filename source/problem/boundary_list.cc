@@ -1,6 +1,8 @@
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/text_table.h>
 #include <mortise/body/mesh/mesh_file.h>
 #include <mortise/output/face_picture.h>
 #include <mortise/output/vtu_file.h>
@@ -88,13 +90,8 @@ namespace mortise
     std::string
     description(const MeshSurface &surface, const std::string &file)
     {
-      Point<3> low = surface.patches[0].low, high = surface.patches[0].high;
-      for (const SurfacePatch &patch : surface.patches)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            low[d]  = std::min(low[d], patch.low[d]);
-            high[d] = std::max(high[d], patch.high[d]);
-          }
+      const auto [low, high] =
+        BoundingBox<3>(surface.mesh.vertices).get_boundary_points();
       const double                          size = low.distance(high);
       std::vector<std::vector<std::string>> rows = {
         {"face", "shape", "area", "centre", "from", "to", "name"}};
@@ -118,7 +115,7 @@ namespace mortise
              " cells in a box from " + point_text(low, size) + " to " +
              point_text(high, size) + "; parts: " + parts +
              "\nAreas are those of flat faces of the mesh.\n\n" +
-             text_table(rows);
+             text_table(rows, false);
     }
   } // namespace
 

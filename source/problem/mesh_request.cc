@@ -3,7 +3,6 @@
 #include <mortise/base/quotes.h>
 #include <mortise/problem/mesh_request.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace mortise
@@ -49,23 +48,5 @@ namespace mortise
                            "\"Search distance=...\"");
       }
     return request;
-  }
-
-  std::string
-  text_table(const std::vector<std::vector<std::string>> &rows)
-  {
-    std::vector<std::size_t> widths(rows.front().size(), 0);
-    for (const auto &row : rows)
-      for (std::size_t c = 0; c < row.size(); ++c)
-        widths[c] = std::max(widths[c], row[c].size());
-    std::string text;
-    for (const auto &row : rows)
-      {
-        std::string line;
-        for (std::size_t c = 0; c < row.size(); ++c)
-          line += "  " + row[c] + std::string(widths[c] - row[c].size(), ' ');
-        text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-      }
-    return text;
   }
 } // namespace mortise

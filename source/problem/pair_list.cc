@@ -1,7 +1,9 @@
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/base/text_table.h>
 #include <mortise/body/mesh/facing_patches.h>
 #include <mortise/output/whole_file.h>
 #include <mortise/problem/mesh_request.h>
@@ -33,13 +35,8 @@ namespace mortise
     double
     size_of(const MeshSurface &body)
     {
-      Point<3> low = body.patches[0].low, high = body.patches[0].high;
-      for (const SurfacePatch &patch : body.patches)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            low[d]  = std::min(low[d], patch.low[d]);
-            high[d] = std::max(high[d], patch.high[d]);
-          }
+      const auto [low, high] =
+        BoundingBox<3>(body.mesh.vertices).get_boundary_points();
       return low.distance(high);
     }
 
@@ -234,7 +231,7 @@ namespace mortise
                           distance(pair.mean_distance),
                           distance(pair.largest_distance)});
         }
-      return text_table(rows);
+      return text_table(rows, false);
     }
 
     ProposedInterfaces

@@ -4,11 +4,12 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/problem/boundary_list.h>
-#include <temporary_file.h>
 #include <verdict.h>
 
-#include <fstream>
-#include <sstream>
+#include "../body/gmsh_meshes.h"
+
+using gmsh_test::read_file;
+using gmsh_test::write_file;
 
 namespace
 {
@@ -18,15 +19,6 @@ Box(1) = {-20, -20, 0, 40, 40, 10};
 Cylinder(2) = {0, 0, -1, 0, 0, 12, 5};
 BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
 )";
-
-  std::string
-  content(const std::string &file)
-  {
-    std::ifstream     in(file);
-    std::stringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
 
   unsigned int
   count(const std::string &text, const std::string &part)
@@ -44,10 +36,7 @@ main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const MPI_Comm                           comm = MPI_COMM_WORLD;
-  const std::string geometry                    = temporary_file("listed.geo");
-  if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-    std::ofstream(geometry) << plate;
-  MPI_Barrier(comm);
+  const std::string geometry  = write_file("listed.geo", plate);
   const std::string directory = temporary_file("faces");
   const std::string text =
     mortise::list_boundaries(geometry,
@@ -59,11 +48,11 @@ main(int argc, char **argv)
           text);
   verdict(count(text, "  400 ") == 4 && count(text, "  0, 20, 5 ") == 1,
           "areas and centres of the sides");
-  const std::string picture = content(directory + "/listed-faces.svg");
+  const std::string picture = read_file(directory + "/listed-faces.svg");
   verdict(count(picture, "<text ") == 8 && count(picture, "</svg>") == 1,
           "each view shows three planes and the hole",
           picture.substr(0, 200));
-  const std::string vtu = content(directory + "/listed-faces.vtu");
+  const std::string vtu = read_file(directory + "/listed-faces.vtu");
   verdict(count(vtu, "Name=\"face\"") == 1 && count(vtu, "</VTKFile>") == 1,
           "the numbers are in a file for ParaView");
   const auto refused = [&](const std::string &setting,

@@ -4,12 +4,15 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/problem/pair_list.h>
-#include <temporary_file.h>
 #include <verdict.h>
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
+
+#include "../body/gmsh_meshes.h"
+
+using gmsh_test::read_file;
+using gmsh_test::write_file;
 
 namespace
 {
@@ -28,15 +31,6 @@ Physical Volume("the pin") = {4};
 Physical Volume("block") = {5};
 Physical Volume("lid") = {6};
 )";
-
-  std::string
-  content(const std::string &file)
-  {
-    std::ifstream     in(file);
-    std::stringstream text;
-    text << in.rdbuf();
-    return text.str();
-  }
 
   bool
   holds(const std::string &text, const std::string &part)
@@ -61,10 +55,7 @@ main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const MPI_Comm                           comm = MPI_COMM_WORLD;
-  const std::string geometry = temporary_file("assembly.geo");
-  if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-    std::ofstream(geometry) << assembly;
-  MPI_Barrier(comm);
+  const std::string       geometry  = write_file("assembly.geo", assembly);
   const std::string       directory = temporary_file("pairs");
   const mortise::Settings settings  = {"Mesh size=4",
                                        "Output/Directory=" + directory};
@@ -83,7 +74,7 @@ main(int argc, char **argv)
             row(table, "lid", "the pin").empty(),
           "no pair where another body is between, or far",
           table);
-  const std::string scene = content(directory + "/assembly.prm");
+  const std::string scene = read_file(directory + "/assembly.prm");
   verdict(holds(scene, "set Bodies     = plate, the_pin, block, lid") &&
             holds(scene, "set Part       = the pin") &&
             holds(scene, ": cylinder\n") && holds(scene, "set Law    = tie") &&
@@ -112,11 +103,9 @@ main(int argc, char **argv)
   verdict(holds(again, "which is there already"),
           "refused: a scene that is there",
           again);
-  const std::string single = temporary_file("single.geo");
-  if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-    std::ofstream(single)
-      << "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n";
-  MPI_Barrier(comm);
+  const std::string single =
+    write_file("single.geo",
+               "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 1};\n");
   const std::string one =
     message_of([&] { mortise::list_pairs(single, settings, comm); });
   verdict(holds(one, "has 1 bodies"), "refused: one body", one);

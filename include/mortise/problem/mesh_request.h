@@ -1,11 +1,10 @@
-// What --boundaries and --pairs are asked for, and how they print.
+// What --boundaries and --pairs are asked for.
 #pragma once
 
 #include <mortise/body/mesh/mesh_source.h>
 #include <mortise/problem/input/parameters.h>
 
 #include <string>
-#include <vector>
 
 namespace mortise
 {
@@ -22,8 +21,4 @@ namespace mortise
   read_mesh_request(const std::string &option,
                     const std::string &file,
                     const Settings    &settings);
-
-  /// Rows of as many words, in columns with blanks between them.
-  std::string
-  text_table(const std::vector<std::vector<std::string>> &rows);
 } // namespace mortise

@@ -1,3 +1,5 @@
+#include <deal.II/base/bounding_box.h>
+
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/body/mesh/boundary_selection.h>
@@ -23,14 +25,8 @@ namespace mortise
         : mesh(mesh)
         , patches(surface_patches(mesh, cad))
       {
-        Point<3> low = mesh.vertices[0], high = low;
-        for (const Point<3> &x : mesh.vertices)
-          for (unsigned int d = 0; d < 3; ++d)
-            {
-              low[d]  = std::min(low[d], x[d]);
-              high[d] = std::max(high[d], x[d]);
-            }
-        rounding = 1e-6 * low.distance(high);
+        const auto box = BoundingBox<3>(mesh.vertices).get_boundary_points();
+        rounding       = 1e-6 * box.first.distance(box.second);
       }
 
       std::set<std::size_t>
@@ -159,14 +155,14 @@ namespace mortise
                   first = patch;
                 }
         std::vector<const SurfacePatch *> result   = {first};
-        std::set<unsigned int>            vertices = vertices_of(*first);
+        std::set<unsigned int>            vertices = vertices_of(mesh, *first);
         for (bool grows = first->shape != nullptr; grows;)
           {
             grows = false;
             for (const SurfacePatch *patch : among)
               if (std::count(result.begin(), result.end(), patch) == 0)
                 {
-                  const auto of_patch = vertices_of(*patch);
+                  const auto of_patch = vertices_of(mesh, *patch);
                   const bool touches =
                     std::any_of(of_patch.begin(),
                                 of_patch.end(),
@@ -189,16 +185,6 @@ namespace mortise
                 }
           }
         return result;
-      }
-
-      std::set<unsigned int>
-      vertices_of(const SurfacePatch &patch) const
-      {
-        std::set<unsigned int> vertices;
-        for (const std::size_t f : patch.faces)
-          vertices.insert(mesh.faces.boundary_quads[f].vertices.begin(),
-                          mesh.faces.boundary_quads[f].vertices.end());
-        return vertices;
       }
 
       const CoarseMesh               &mesh;

@@ -197,6 +197,14 @@ namespace mortise
     };
   } // namespace
 
+  std::vector<unsigned int>
+  around(std::vector<unsigned int> vertices)
+  {
+    for (std::size_t v = 2; v + 1 < vertices.size(); v += 4)
+      std::swap(vertices[v], vertices[v + 1]);
+    return vertices;
+  }
+
   std::array<std::array<unsigned int, 3>, 2>
   cut_quadrilateral(const std::array<unsigned int, 4> &around)
   {

@@ -21,18 +21,12 @@ namespace mortise
     Facet
     facet_of(const MeshSurface &body, const std::size_t f)
     {
-      Facet        facet;
-      Tensor<1, 3> sum;
-      for (const unsigned int v : body.outer[f])
-        {
-          facet.x.push_back(body.mesh.vertices[v]);
-          sum += body.mesh.vertices[v];
-        }
-      const auto &x = facet.x;
-      facet.middle  = Point<3>(sum / double(x.size()));
-      facet.normal  = x.size() == 4 ?
-                        cross_product_3d(x[2] - x[0], x[3] - x[1]) / 2. :
-                        cross_product_3d(x[1] - x[0], x[2] - x[0]) / 2.;
+      const std::vector<unsigned int> &outer = body.outer[f];
+      Facet                            facet;
+      for (const unsigned int v : outer)
+        facet.x.push_back(body.mesh.vertices[v]);
+      facet.normal = area_vector(body.mesh.vertices, outer);
+      facet.middle = middle(body.mesh.vertices, outer);
       return facet;
     }
 

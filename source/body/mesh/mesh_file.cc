@@ -7,6 +7,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/body/mesh/boundary_selection.h>
+#include <mortise/body/mesh/cell_cutting.h>
 #include <mortise/body/mesh/curved_boundaries.h>
 #include <mortise/body/mesh/mesh_file.h>
 
@@ -151,27 +152,25 @@ namespace mortise
       std::vector<std::vector<unsigned int>> result;
       for (const CellData<2> &face : mesh.faces.boundary_quads)
         {
-          std::vector<unsigned int> around = face.vertices;
-          if (around.size() == 4)
-            std::swap(around[2], around[3]);
-          const auto &x = mesh.vertices;
-          for (const std::size_t c : cells_at[around[0]])
+          std::vector<unsigned int> outer = around(face.vertices);
+          const auto               &x     = mesh.vertices;
+          for (const std::size_t c : cells_at[outer[0]])
             {
               const auto &cell = mesh.cells[c].vertices;
-              if (!std::all_of(around.begin(), around.end(), [&](const auto v) {
+              if (!std::all_of(outer.begin(), outer.end(), [&](const auto v) {
                     return std::count(cell.begin(), cell.end(), v) > 0;
                   }))
                 continue;
               Tensor<1, 3> inwards;
               for (const unsigned int v : cell)
-                inwards += x[v] - x[around[0]];
-              if (cross_product_3d(x[around[1]] - x[around[0]],
-                                   x[around[2]] - x[around[0]]) *
+                inwards += x[v] - x[outer[0]];
+              if (cross_product_3d(x[outer[1]] - x[outer[0]],
+                                   x[outer[2]] - x[outer[0]]) *
                     inwards >
                   0.)
-                std::reverse(around.begin(), around.end());
+                std::reverse(outer.begin(), outer.end());
             }
-          result.push_back(around);
+          result.push_back(outer);
         }
       return result;
     }

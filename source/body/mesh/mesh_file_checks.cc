@@ -1,3 +1,4 @@
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/geometry_info.h>
 
 #include <mortise/base/numbers.h>
@@ -175,20 +176,6 @@ namespace mortise
       return pairs;
     }
 
-    /// The lowest and the highest coordinates.
-    std::pair<Point<3>, Point<3>>
-    bounding_box(const CoarseMesh &mesh)
-    {
-      Point<3> low = mesh.vertices[0], high = mesh.vertices[0];
-      for (const Point<3> &vertex : mesh.vertices)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            low[d]  = std::min(low[d], vertex[d]);
-            high[d] = std::max(high[d], vertex[d]);
-          }
-      return {low, high};
-    }
-
     template <typename Id>
     bool
     disjoint(const std::set<Id> &a, const std::set<Id> &b)
@@ -202,7 +189,7 @@ namespace mortise
   void
   check_size(const CoarseMesh &mesh, const FileError &fail)
   {
-    const auto   box  = bounding_box(mesh);
+    const auto   box  = BoundingBox<3>(mesh.vertices).get_boundary_points();
     const double size = box.first.distance(box.second);
     if (size >= smallest_length && size <= largest_length)
       return;
@@ -243,7 +230,7 @@ namespace mortise
   void
   check_coinciding_nodes(const CoarseMesh &mesh, const FileError &fail)
   {
-    const auto box = bounding_box(mesh);
+    const auto box = BoundingBox<3>(mesh.vertices).get_boundary_points();
     const auto pairs =
       coinciding_pairs(mesh.vertices, 1e-9 * box.first.distance(box.second));
     if (pairs.empty())

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <set>
 
 #include "mesh_file_parts.h"
@@ -219,7 +218,7 @@ namespace mortise
           ": named " + names[0] + "; ... makes boundaries of them";
     }
 
-    [[noreturn]] void
+    void
     fail_for_two_groups(const std::set<int>             &groups,
                         const GmshModel                 &model,
                         const std::vector<unsigned int> &face,
@@ -231,7 +230,6 @@ namespace mortise
       fail("has a face at " + place_name(model.nodes[face[0]]) + " in " +
            std::to_string(names.size()) + " physical surfaces, " +
            join_names(names) + "; allowed: one each");
-      std::abort(); // never
     }
   } // namespace
 

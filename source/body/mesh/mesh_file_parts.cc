@@ -284,10 +284,8 @@ namespace mortise
     const auto blocks = selected_blocks(model, parameters, fail);
     if (check_shapes(blocks, parameters, fail))
       {
-        MeshParameters of_tetrahedra = parameters;
-        of_tetrahedra.cells          = "auto";
         CoarseMesh mesh =
-          select_part(cut_into_tetrahedra(model), of_tetrahedra, fail);
+          select_part(cut_into_tetrahedra(model), parameters, fail);
         mesh.remark = count_cells(blocks) + " are cut into " +
                       std::to_string(mesh.cells.size()) + " tetrahedra" +
                       (mesh.remark.empty() ? "" : "; " + mesh.remark);

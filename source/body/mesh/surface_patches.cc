@@ -1,14 +1,17 @@
+#include <deal.II/base/bounding_box.h>
+
 #include <mortise/base/error.h>
 #include <mortise/base/numbers.h>
+#include <mortise/body/mesh/cell_cutting.h>
 #include <mortise/body/mesh/surface_patches.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "surface_fit.h"
 
@@ -16,39 +19,50 @@ namespace mortise
 {
   using namespace dealii;
 
+  Tensor<1, 3>
+  area_vector(const std::vector<Point<3>>     &x,
+              const std::vector<unsigned int> &v)
+  {
+    return v.size() == 4 ?
+             cross_product_3d(x[v[2]] - x[v[0]], x[v[3]] - x[v[1]]) / 2. :
+             cross_product_3d(x[v[1]] - x[v[0]], x[v[2]] - x[v[0]]) / 2.;
+  }
+
+  Point<3>
+  middle(const std::vector<Point<3>>     &x,
+         const std::vector<unsigned int> &vertices)
+  {
+    Tensor<1, 3> sum;
+    for (const unsigned int v : vertices)
+      sum += x[v];
+    return Point<3>(sum / double(vertices.size()));
+  }
+
+  std::set<unsigned int>
+  vertices_of(const CoarseMesh &mesh, const SurfacePatch &patch)
+  {
+    std::set<unsigned int> vertices;
+    for (const std::size_t f : patch.faces)
+      vertices.insert(mesh.faces.boundary_quads[f].vertices.begin(),
+                      mesh.faces.boundary_quads[f].vertices.end());
+    return vertices;
+  }
+
   namespace
   {
     /// Vertices of a vertex, edge or face in ascending order.
     using EdgeKey = std::pair<unsigned int, unsigned int>;
 
-    /// Its vertices around the face.
-    std::vector<unsigned int>
-    around(const CellData<2> &face)
-    {
-      std::vector<unsigned int> v = face.vertices;
-      if (v.size() == 4)
-        std::swap(v[2], v[3]);
-      return v;
-    }
-
-    /// Normal of a face, as long as its area.
     Tensor<1, 3>
     area_vector(const CoarseMesh &mesh, const CellData<2> &face)
     {
-      const auto  v = around(face);
-      const auto &x = mesh.vertices;
-      return v.size() == 4 ?
-               cross_product_3d(x[v[2]] - x[v[0]], x[v[3]] - x[v[1]]) / 2. :
-               cross_product_3d(x[v[1]] - x[v[0]], x[v[2]] - x[v[0]]) / 2.;
+      return mortise::area_vector(mesh.vertices, around(face.vertices));
     }
 
     Point<3>
     middle(const CoarseMesh &mesh, const CellData<2> &face)
     {
-      Tensor<1, 3> sum;
-      for (const unsigned int v : face.vertices)
-        sum += mesh.vertices[v];
-      return Point<3>(sum / double(face.vertices.size()));
+      return mortise::middle(mesh.vertices, face.vertices);
     }
 
     /// By face: the first one in its patch.
@@ -67,7 +81,7 @@ namespace mortise
       std::map<EdgeKey, std::vector<std::size_t>> at_edge;
       for (std::size_t f = 0; f < faces.size(); ++f)
         {
-          const auto v = around(faces[f]);
+          const auto v = around(faces[f].vertices);
           for (std::size_t i = 0; i < v.size(); ++i)
             at_edge[std::minmax(v[i], v[(i + 1) % v.size()])].push_back(f);
         }
@@ -109,12 +123,8 @@ namespace mortise
     std::vector<Point<3>>
     points_of(const CoarseMesh &mesh, const SurfacePatch &patch)
     {
-      std::set<unsigned int> vertices;
-      for (const std::size_t f : patch.faces)
-        vertices.insert(mesh.faces.boundary_quads[f].vertices.begin(),
-                        mesh.faces.boundary_quads[f].vertices.end());
       std::vector<Point<3>> points;
-      for (const unsigned int v : vertices)
+      for (const unsigned int v : vertices_of(mesh, patch))
         points.push_back(mesh.vertices[v]);
       return points;
     }
@@ -195,9 +205,8 @@ namespace mortise
     void
     measure(const CoarseMesh &mesh, SurfacePatch &patch)
     {
-      constexpr double largest = std::numeric_limits<double>::max();
-      patch.low                = Point<3>(largest, largest, largest);
-      patch.high               = -1. * patch.low;
+      std::tie(patch.low, patch.high) =
+        BoundingBox<3>(points_of(mesh, patch)).get_boundary_points();
       Tensor<1, 3> moment, sum;
       for (const std::size_t f : patch.faces)
         {
@@ -206,12 +215,6 @@ namespace mortise
           patch.area += area;
           moment += area * middle(mesh, face);
           sum += middle(mesh, face);
-          for (const unsigned int v : face.vertices)
-            for (unsigned int d = 0; d < 3; ++d)
-              {
-                patch.low[d]  = std::min(patch.low[d], mesh.vertices[v][d]);
-                patch.high[d] = std::max(patch.high[d], mesh.vertices[v][d]);
-              }
         }
       // a broken mesh may have a face without area
       patch.centre = patch.area > 0. ?

@@ -18,19 +18,6 @@ namespace mortise
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Numbers of the vertices in gmsh's order, which goes around faces.
-    std::vector<unsigned int>
-    around(const std::vector<unsigned int> &vertices)
-    {
-      std::vector<unsigned int> result = vertices;
-      for (std::size_t v = 2; v < result.size(); v += 4)
-        std::swap(result[v], result[v + 1]);
-      return result;
-    }
-  } // namespace
-
   CoarseMesh
   cut_into_tetrahedra(CoarseMesh mesh)
   {

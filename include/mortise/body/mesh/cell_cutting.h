@@ -19,6 +19,11 @@ namespace mortise
   std::vector<std::array<unsigned int, 4>>
   cut_cell(const std::vector<unsigned int> &vertices);
 
+  /// The @p vertices of a triangle, quadrilateral or hexahedron of deal.II in
+  /// gmsh's order, which goes around faces.
+  std::vector<unsigned int>
+  around(std::vector<unsigned int> vertices);
+
   /// Local vertices of the triangles of a quadrilateral whose vertices @p around
   /// it have these numbers, by the same rule.
   std::array<std::array<unsigned int, 3>, 2>

@@ -4,6 +4,7 @@
 
 #include <mortise/body/mesh/generators.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,18 @@ namespace mortise
     std::string
     text() const;
   };
+
+  /// Normal of a flat face with vertices @p v of @p x around it, as long as its
+  /// area, and the mean of its vertices.
+  dealii::Tensor<1, 3>
+  area_vector(const std::vector<dealii::Point<3>> &x,
+              const std::vector<unsigned int>     &v);
+  dealii::Point<3>
+  middle(const std::vector<dealii::Point<3>> &x,
+         const std::vector<unsigned int>     &vertices);
+
+  std::set<unsigned int>
+  vertices_of(const CoarseMesh &mesh, const SurfacePatch &patch);
 
   /// All boundary faces of @p mesh in patches. @p cad: every boundary is one face
   /// of a CAD file, whose number is its id. Else faces that share an edge and
