@@ -85,6 +85,13 @@ namespace mortise
          "force"},
         {"three expressions \"Fx; Fy; Fz\" in t"});
       section.add(
+        "Reference point",
+        boundary.reference_point,
+        {"Point on which Force acts and about which Rotation turns, in the boundary or away from it []. A Force there is "
+         "spread over the boundary together with its moment. Empty: the centroid of the area.",
+         "length"},
+        {"3 numbers"});
+      section.add(
         "Moment",
         boundary.moment,
         {"Total moment on the boundary about the centroid of its area [], as a traction w x (x - centroid), "
@@ -108,6 +115,27 @@ namespace mortise
         {"Rotates the axes of Displacement about those of the scene, x, then y, then z [].",
          "degrees"},
         {"3 numbers"});
+      section.add(
+        "Rotation",
+        boundary.rotation,
+        {"Prescribed rotation of the boundary about the Reference point, a vector along the axis, added to the components "
+         "that Displacement prescribes (all where that is empty) []. With finite strains it is a rotation by any angle, "
+         "with small ones its linear part.",
+         "degrees"},
+        {"three expressions \"rx; ry; rz\" in t"});
+      section.add(
+        "Normal stiffness",
+        boundary.normal_stiffness,
+        {"An elastic foundation: springs between the boundary and the ground, with this traction per displacement along "
+         "the normal []. Empty: none.",
+         "force per volume"},
+        {"an expression in x, y, z, positive"});
+      section.add(
+        "Tangential stiffness",
+        boundary.tangential_stiffness,
+        {"The same across the normal [], with a Normal stiffness. Empty: 0.",
+         "force per volume"},
+        {"an expression in x, y, z, positive; or 0"});
     }
 
     void

@@ -71,7 +71,7 @@ namespace mortise
     if (interface.law != Law::spring)
       return law;
     const auto where = [&](const std::string &name) {
-      return parameters.where("Interface " + interface.name + "/" + name);
+      return parameters.where(interface.path() + "/" + name);
     };
     const std::string across = where("Tangential stiffness");
     law.stiffness =

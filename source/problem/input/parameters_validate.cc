@@ -143,17 +143,13 @@ namespace mortise
     check_interface(const Parameters          &parameters,
                     const InterfaceParameters &interface)
     {
-      if (interface.is_support)
-        return check_expression(parameters.where(interface.displacement_path),
-                                interface.offset,
-                                parameters.steps.first_time());
-      const std::string     section = "Interface " + interface.name;
+      const std::string     section = interface.path();
       const SideParameters &slave = interface.slave, &master = interface.master;
-      check_expression(parameters.where(section + "/Offset"),
+      check_expression(parameters.where(section + (interface.is_support ?
+                                                     "/Displacement" :
+                                                     "/Offset")),
                        interface.offset,
                        parameters.steps.first_time());
-      check_preload(parameters, interface, section);
-      check_friction(parameters, interface, section);
       check_stiffness(parameters,
                       interface,
                       section + "/Normal stiffness",
@@ -164,6 +160,10 @@ namespace mortise
                       section + "/Tangential stiffness",
                       interface.tangential_stiffness,
                       true);
+      if (interface.is_support)
+        return;
+      check_preload(parameters, interface, section);
+      check_friction(parameters, interface, section);
       if (share(slave, master))
         parameters.fail(
           section + "/Master",

@@ -138,6 +138,11 @@ namespace mortise
       check_components(parameters, section + "/Traction", boundary.traction);
       check_total(parameters, section + "/Force", boundary.force);
       check_total(parameters, section + "/Moment", boundary.moment);
+      check_total(parameters, section + "/Rotation", boundary.rotation);
+      if (boundary.reference_point && !boundary.force && !boundary.rotation)
+        parameters.fail(section + "/Reference point",
+                        "a point without a Force or a Rotation",
+                        "nothing, or a Force or a Rotation");
       check_components(parameters,
                        section + "/Displacement",
                        boundary.displacement,

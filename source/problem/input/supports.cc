@@ -28,24 +28,60 @@ namespace mortise
       return name;
     }
 
-    /// A support of @p boundary of body @p b, displaced by @p displacement along the normal.
+    /// A support of @p boundary of body @p b.
     InterfaceParameters
     support(const Parameters  &parameters,
             const unsigned int b,
             const std::string &boundary,
-            const std::string &displacement)
+            const Law          law)
     {
       const std::string  &body = parameters.bodies[b].name;
       InterfaceParameters result;
       result.name       = support_name(parameters, body, boundary);
       result.slave      = {b, {boundary}};
       result.master     = result.slave;
-      result.law        = Law::slide;
-      result.offset     = displacement;
+      result.law        = law;
       result.is_support = true;
-      result.displacement_path =
-        "Body " + body + "/Boundary " + boundary + "/Displacement";
+      result.boundary   = "Body " + body + "/Boundary " + boundary;
       return result;
+    }
+
+    /// One that displaces it by @p displacement along the normal.
+    InterfaceParameters
+    roller(const Parameters  &parameters,
+           const unsigned int b,
+           const std::string &boundary,
+           const std::string &displacement)
+    {
+      InterfaceParameters result = support(parameters, b, boundary, Law::slide);
+      result.offset              = displacement;
+      return result;
+    }
+
+    /// Springs between it and the ground.
+    void
+    add_foundation(Parameters        &parameters,
+                   const unsigned int b,
+                   const std::string &name)
+    {
+      const BoundaryParameters &boundary =
+        parameters.bodies[b].boundaries[name];
+      if (!boundary.normal_stiffness && !boundary.tangential_stiffness)
+        return;
+      InterfaceParameters springs = support(parameters, b, name, Law::spring);
+      if (!boundary.normal_stiffness)
+        parameters.fail(springs.boundary + "/Normal stiffness",
+                        "nothing with a Tangential stiffness",
+                        "an expression in x, y, z");
+      if (boundary.displacement || boundary.normal_displacement)
+        parameters.fail(
+          springs.boundary + "/Displacement",
+          "a Displacement with a Normal stiffness",
+          "one of them: springs end at the ground, which does not move");
+      springs.normal_stiffness = boundary.normal_stiffness;
+      springs.tangential_stiffness =
+        boundary.tangential_stiffness.value_or("0");
+      parameters.interfaces.push_back(springs);
     }
 
     /// All components in rotated axes are components in those of the scene;
@@ -65,12 +101,18 @@ namespace mortise
                         "expressions, or - for what is free");
       if (std::count(given.begin(), given.end(), "-") == 0)
         return; // SceneData rotates them
+      if (boundary.rotation)
+        parameters.fail("Body " + parameters.bodies[b].name + "/Boundary " +
+                          name + "/Rotation",
+                        "a rotation with Displacement axes and components "
+                        "that are free",
+                        "components along the axes of the scene, or none free");
       const dealii::Tensor<2, 3> axes =
         RigidMotion(boundary.displacement_axes, {}).rotation;
       for (unsigned int c = 0; c < 3; ++c)
         if (given[c] != "-")
           {
-            InterfaceParameters  along = support(parameters, b, name, given[c]);
+            InterfaceParameters  along = roller(parameters, b, name, given[c]);
             dealii::Tensor<1, 3> unit;
             unit[c]         = 1.;
             along.direction = axes * unit;
@@ -86,6 +128,13 @@ namespace mortise
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
       for (auto &[name, boundary] : parameters.bodies[b].boundaries)
         {
+          if (boundary.rotation && boundary.normal_displacement)
+            parameters.fail("Body " + parameters.bodies[b].name + "/Boundary " +
+                              name + "/Rotation",
+                            "a rotation with Displacement = normal",
+                            "one of them");
+          if (boundary.rotation && !boundary.displacement)
+            boundary.displacement = Components{{"0", "0", "0"}};
           const bool rotated =
             boundary.displacement_axes != std::array<double, 3>();
           const std::string path = "Body " + parameters.bodies[b].name +
@@ -99,7 +148,8 @@ namespace mortise
             add_rotated(parameters, b, name);
           if (boundary.normal_displacement)
             parameters.interfaces.push_back(
-              support(parameters, b, name, *boundary.normal_displacement));
+              roller(parameters, b, name, *boundary.normal_displacement));
+          add_foundation(parameters, b, name);
         }
   }
 } // namespace mortise

@@ -124,8 +124,7 @@ namespace mortise
       {
         const std::vector<bool> &coupled =
           interfaces[i].direction ?
-            taken_before
-              .try_emplace(interfaces[i].displacement_path, shared.coupled())
+            taken_before.try_emplace(interfaces[i].boundary, shared.coupled())
               .first->second :
             shared.coupled();
         const SideParameters &slave    = interfaces[i].slave;

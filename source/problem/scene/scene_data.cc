@@ -1,3 +1,5 @@
+#include <deal.II/physics/transformations.h>
+
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/base/rigid_motion.h>
@@ -144,7 +146,8 @@ namespace mortise
                                   is_vector(given.traction) ||
                                   is_vector(given.force) ||
                                   is_vector(given.moment) ||
-                                  is_vector(given.displacement);
+                                  is_vector(given.displacement) ||
+                                  is_vector(given.rotation);
                          });
     };
     const auto moves = [&](const InterfaceParameters &interface) {
@@ -201,6 +204,18 @@ namespace mortise
            return -value(x) * normal;
          }});
   }
+
+  namespace
+  {
+    Point<dim>
+    reference_point(const BoundaryParameters &given, const BoundaryArea &area)
+    {
+      if (!given.reference_point)
+        return area.centroid;
+      const auto &point = *given.reference_point;
+      return Point<dim>(point[0], point[1], point[2]);
+    }
+  } // namespace
 
   Loads
   SceneData::loads(const Body &body) const
@@ -268,16 +283,17 @@ namespace mortise
           }
         if (boundary.force || boundary.moment)
           {
-            const auto traction =
-              equivalent_traction(boundary_area(body, id),
-                                  total(boundary.force,
-                                        parameters.where(where + "/Force"),
-                                        time,
-                                        watch),
-                                  total(boundary.moment,
-                                        parameters.where(where + "/Moment"),
-                                        time,
-                                        watch));
+            const BoundaryArea   area  = boundary_area(body, id);
+            const Tensor<1, dim> force = total(
+              boundary.force, parameters.where(where + "/Force"), time, watch);
+            const Tensor<1, dim> moment =
+              total(boundary.moment,
+                    parameters.where(where + "/Moment"),
+                    time,
+                    watch) +
+              cross_product_3d(reference_point(boundary, area) - area.centroid,
+                               force);
+            const auto traction = equivalent_traction(area, force, moment);
             loads.tractions.push_back(
               {id, [traction](const Point<dim> &x, const Tensor<1, dim> &) {
                  return traction(x);
@@ -322,6 +338,35 @@ namespace mortise
     };
   }
 
+  std::function<Tensor<1, dim>(const Point<dim> &)>
+  SceneData::rotation(const Body               &body,
+                      const BoundaryParameters &boundary,
+                      const types::boundary_id  id,
+                      const std::string        &where) const
+  {
+    const std::string path = parameters.where(where + "/Rotation");
+    if (!boundary.rotation ||
+        all_zero(components(*boundary.rotation, path, time)))
+      return {};
+    const Tensor<1, dim> angle =
+      numbers::PI / 180. * total(boundary.rotation, path, time, checks);
+    const Point<dim> centre =
+      reference_point(boundary,
+                      boundary.reference_point ? BoundaryArea() :
+                                                 boundary_area(body, id));
+    if (!is_finite(parameters.bodies[body.index].material) ||
+        angle.norm() == 0.)
+      return [angle, centre](const Point<dim> &x) {
+        return cross_product_3d(angle, x - centre);
+      };
+    const Tensor<2, dim> change =
+      Physics::Transformations::Rotations::rotation_matrix_3d(
+        Point<dim>(angle / angle.norm()), angle.norm()) -
+      unit_symmetric_tensor<dim>();
+    return
+      [change, centre](const Point<dim> &x) { return change * (x - centre); };
+  }
+
   std::vector<DirichletCondition>
   SceneData::dirichlet(const Body &body) const
   {
@@ -345,16 +390,19 @@ namespace mortise
             condition.fixed[c] = !field[c].free;
           const Tensor<2, dim> axes =
             RigidMotion(entry.second.displacement_axes, {}).rotation;
-          if (!all_zero(field))
-            condition.value = scaled(
-              std::function<Tensor<1, dim>(const Point<dim> &)>(
-                [=, &watch](const Point<dim> &x) {
-                  return axes *
+          const VectorField turn =
+            rotation(body, entry.second, condition.boundary, where);
+          if (!all_zero(field) || turn)
+            condition.value =
+              scaled(VectorField([=, &watch](const Point<dim> &x) {
+                       const Tensor<1, dim> value =
+                         axes *
                          evaluate(field, x, watch, [&](const Point<dim> &p) {
                            return exact->displacement(p, b);
                          });
-                }),
-              factor);
+                       return turn ? value + turn(x) : value;
+                     }),
+                     factor);
           conditions.push_back(condition);
         }
     return conditions;

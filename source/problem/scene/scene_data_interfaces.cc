@@ -13,8 +13,7 @@ namespace mortise
   SceneData::offset(const InterfaceParameters &given) const
   {
     const std::string where = parameters.where(
-      given.is_support ? given.displacement_path :
-                         "Interface " + given.name + "/Offset");
+      given.path() + (given.is_support ? "/Displacement" : "/Offset"));
     const Expression expression(given.offset, where, time);
     if (expression.is_constant() && !expression.depends_on_time() &&
         expression.value(Point<dim>()) == 0.)

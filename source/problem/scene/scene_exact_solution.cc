@@ -88,6 +88,11 @@ namespace mortise
         }
       for (const InterfaceParameters &interface : parameters.interfaces)
         {
+          if (interface.is_support && interface.law == Law::spring)
+            parameters.fail(interface.path() + "/Normal stiffness",
+                            in_quotes(*interface.normal_stiffness) +
+                              " with a named exact solution",
+                            "none, since it has no elastic foundation");
           if (interface.is_support)
             continue;
           LameSolution::Layer &a     = layers[interface.slave.body],

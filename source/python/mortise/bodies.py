@@ -146,6 +146,9 @@ class Boundary(Section):
     force: Expressions = parameter("Force", (), "list of expressions", "force")
     """Total force on the boundary, spread evenly over its area and added to the others [force]. Empty: none. Allowed: three
     expressions "Fx; Fy; Fz" in t."""
+    reference_point: Sequence[float] = parameter("Reference point", (), "list of reals", "length")
+    """Point on which Force acts and about which Rotation turns, in the boundary or away from it [length]. A Force there is spread
+    over the boundary together with its moment. Empty: the centroid of the area. Allowed: 3 numbers."""
     moment: Expressions = parameter("Moment", (), "list of expressions", "force times length")
     """Total moment on the boundary about the centroid of its area [force times length], as a traction w x (x - centroid), which
     has no resultant. Empty: none. Allowed: three expressions "Mx; My; Mz" in t."""
@@ -155,6 +158,16 @@ class Boundary(Section):
     "normal: an expression"."""
     displacement_axes: Sequence[float] = parameter("Displacement axes", (0.0, 0.0, 0.0), "list of reals", "degrees")
     """Rotates the axes of Displacement about those of the scene, x, then y, then z [degrees]. Allowed: 3 numbers."""
+    rotation: Expressions = parameter("Rotation", (), "list of expressions", "degrees")
+    """Prescribed rotation of the boundary about the Reference point, a vector along the axis, added to the components that
+    Displacement prescribes (all where that is empty) [degrees]. With finite strains it is a rotation by any angle, with small
+    ones its linear part. Allowed: three expressions "rx; ry; rz" in t."""
+    normal_stiffness: Optional[Expression] = parameter("Normal stiffness", None, "expression", "force per volume")
+    """An elastic foundation: springs between the boundary and the ground, with this traction per displacement along the normal
+    [force per volume]. Empty: none. Allowed: an expression in x, y, z, positive."""
+    tangential_stiffness: Optional[Expression] = parameter("Tangential stiffness", None, "expression", "force per volume")
+    """The same across the normal [force per volume], with a Normal stiffness. Empty: 0. Allowed: an expression in x, y, z,
+    positive; or 0."""
 
 
 @dataclass

@@ -45,7 +45,14 @@ namespace mortise
     /// A support: the master is a rigid copy of the slave's boundary, and the
     /// displacement takes the place of the offset.
     bool                                is_support = false;
-    std::optional<dealii::Tensor<1, 3>> direction;         ///< else the normal
-    std::string                         displacement_path; ///< of its parameter
+    std::optional<dealii::Tensor<1, 3>> direction; ///< else the normal
+    std::string                         boundary;  ///< path of its section
+
+    /// The path of the section of the parameter file that it is from.
+    std::string
+    path() const
+    {
+      return is_support ? boundary : "Interface " + name;
+    }
   };
 } // namespace mortise

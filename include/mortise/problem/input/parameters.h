@@ -42,12 +42,18 @@ namespace mortise
   {
     std::optional<std::string> pressure;
     /// Absent: where the body has finite strains.
-    std::optional<bool>        pressure_follows;
-    std::optional<Components>  traction;
-    std::optional<Components>  force, moment; ///< totals
-    std::optional<Components>  displacement;
-    std::array<double, 3>      displacement_axes{}; ///< rotation, degrees
+    std::optional<bool>       pressure_follows;
+    std::optional<Components> traction;
+    std::optional<Components> force, moment; ///< totals
+    std::optional<Components> displacement;
+    std::array<double, 3>     displacement_axes{}; ///< rotation, degrees
+    /// A vector along the axis, degrees, added to the displacement.
+    std::optional<Components> rotation;
+    /// Of force and rotation. Absent: the centroid.
+    std::optional<std::array<double, 3>> reference_point;
     std::optional<std::string> normal_displacement; ///< excludes the others
+    /// Of an elastic foundation.
+    std::optional<std::string> normal_stiffness, tangential_stiffness;
   };
 
   /// Unknowns of a body.

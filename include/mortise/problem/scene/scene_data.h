@@ -78,6 +78,14 @@ namespace mortise
     dirichlet(const Body &body) const;
 
   private:
+    /// The displacement of @p boundary, which is @p id of @p body and the section @p where, by its Rotation; null if
+    /// that is zero at all times.
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
+    rotation(const Body                &body,
+             const BoundaryParameters  &boundary,
+             dealii::types::boundary_id id,
+             const std::string         &where) const;
+
     /// The pressure @p text on boundary @p id joins @p loads.
     void
     add_pressure(dealii::types::boundary_id id,
