@@ -3,9 +3,10 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <mortise/body/boundary_conditions.h>
-#include <mortise/body/boundary_faces.h>
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/body/elements/simplex_quadrature.h>
+
+#include <algorithm>
 
 namespace mortise
 {
@@ -173,6 +174,34 @@ namespace mortise
           c[used[i]] += face_inverse[top](i, j) * moment[j];
     }
 
+    bool
+    is_on(const Point<dim> &x, const Segment &segment, const double tolerance)
+    {
+      const Tensor<1, dim> along  = segment[1] - segment[0];
+      const double         square = along.norm_square();
+      const double part = square > 0. ? (x - segment[0]) * along / square : 0.;
+      return x.distance(segment[0] +
+                        std::min(1., std::max(0., part)) * along) <= tolerance;
+    }
+
+    /// Does @p condition prescribe the coefficient of @p function of the trace on @p face?
+    bool
+    prescribes(const DirichletCondition   &condition,
+               const Body::CellIterator   &cell,
+               const CellFace             &face,
+               const TraceBasis::Function &function)
+    {
+      const auto at = [&](const unsigned int v) {
+        return prescribes_vertex(condition, cell, face.vertices[v]);
+      };
+      if (function.dimension == 0)
+        return at(function.entity);
+      if (function.dimension == 2)
+        return !condition.segment;
+      const auto ends = face.basis->edge_vertices(function.entity);
+      return at(ends[0]) && at(ends[1]);
+    }
+
     void
     constrain_face(const Body                &body,
                    const BoundaryFace        &at,
@@ -200,7 +229,10 @@ namespace mortise
       std::vector<types::global_dof_index> dofs;
       body.degrees->get_master_dofs(cell, dofs);
       for (unsigned int k = 0; k < face.indices.size(); ++k)
-        for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int c = 0;
+             c < dim &&
+             prescribes(condition, cell, face, face.basis->functions[k]);
+             ++c)
           {
             const auto dof =
               dofs[cell->get_fe().component_to_system_index(c,
@@ -215,6 +247,38 @@ namespace mortise
     }
   } // namespace
 
+  bool
+  prescribes_vertex(const DirichletCondition &condition,
+                    const Body::CellIterator &cell,
+                    const unsigned int        v)
+  {
+    constexpr double tolerance = 1e-6;
+    return !condition.segment || is_on(cell->vertex(v),
+                                       *condition.segment,
+                                       tolerance * cell->diameter());
+  }
+
+  std::vector<BoundaryFace>
+  faces_of(const Body &body, const DirichletCondition &condition)
+  {
+    if (!condition.segment)
+      return boundary_faces(body, condition.boundary);
+    std::vector<BoundaryFace> result =
+      boundary_faces(body, body.triangulation().get_boundary_ids());
+    const auto is_off = [&](const BoundaryFace &face) {
+      const auto vertices = CellFace(face.cell, face.number).vertices;
+      return std::none_of(vertices.begin(),
+                          vertices.begin() +
+                            face.cell->face(face.number)->n_vertices(),
+                          [&](const unsigned int v) {
+                            return prescribes_vertex(condition, face.cell, v);
+                          });
+    };
+    result.erase(std::remove_if(result.begin(), result.end(), is_off),
+                 result.end());
+    return result;
+  }
+
   void
   add_dirichlet_constraints(const Body                            &body,
                             const std::vector<DirichletCondition> &conditions,
@@ -224,7 +288,7 @@ namespace mortise
       return;
     std::map<const TraceBasis *, FaceInterpolation> interpolations;
     for (const DirichletCondition &condition : conditions)
-      for (const BoundaryFace &face : boundary_faces(body, condition.boundary))
+      for (const BoundaryFace &face : faces_of(body, condition))
         {
           const TraceBasis &basis =
             trace_basis(body.mesh.tetrahedra ? FaceShape::triangle :

@@ -2,19 +2,25 @@
 // as data.
 #pragma once
 
-#include <mortise/body/body.h>
+#include <mortise/body/boundary_faces.h>
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace mortise
 {
-  /// A prescribed displacement of some components on one boundary.
+  /// A straight line, or a point where both ends are the same.
+  using Segment = std::array<dealii::Point<dim>, 2>;
+
+  /// A prescribed displacement of some components on one boundary, or at
+  /// vertices and edges of the mesh on the surface of the body.
   struct DirichletCondition
   {
-    dealii::types::boundary_id boundary;
-    std::array<bool, dim>      fixed{}; ///< components it prescribes
+    dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
+    std::optional<Segment>     segment{}; ///< in place of a boundary
+    std::array<bool, dim>      fixed{};   ///< components it prescribes
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
       value; ///< a length; empty: zero
   };
@@ -37,6 +43,17 @@ namespace mortise
     /// when pressing.
     std::function<double(const dealii::Point<dim> &)> pressure;
   };
+
+  /// Faces of owned and ghost cells of @p body with a vertex at which @p condition prescribes something.
+  std::vector<BoundaryFace>
+  faces_of(const Body &body, const DirichletCondition &condition);
+
+  /// Does @p condition prescribe something at vertex @p v of the cell of one of its faces? On a segment it
+  /// does to a millionth of the cell's size.
+  bool
+  prescribes_vertex(const DirichletCondition &condition,
+                    const Body::CellIterator &cell,
+                    unsigned int              v);
 
   /// Constrain the displacements of @p body on its Dirichlet boundaries. The values are interpolated
   /// by projections: at vertices, then in L2 on edges, then on faces, up to the

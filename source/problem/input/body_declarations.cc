@@ -54,6 +54,24 @@ namespace mortise
     }
 
     void
+    set_supports(std::vector<PointSupport> &supports,
+                 const ParameterValue      &value)
+    {
+      supports.clear();
+      for (const auto &record : value.records(2))
+        {
+          PointSupport support{record[0] + ": " + record[1], {}, {}};
+          ParameterValue{record[0], value.where, value.allowed}.read(
+            support.ends);
+          ParameterValue{record[1], value.where, value.allowed}.read(
+            support.displacement);
+          if (support.ends.size() != 3 && support.ends.size() != 6)
+            value.fail(in_quotes(record[0]));
+          supports.push_back(support);
+        }
+    }
+
+    void
     declare_boundary(const ParameterSection &section,
                      BoundaryParameters     &boundary)
     {
@@ -326,6 +344,18 @@ namespace mortise
         body.body_force.reset();
         if (value.text != "auto")
           value.read(body.body_force);
+      },
+      "list of expressions");
+    section.add(
+      "Displacement at",
+      "",
+      {"Prescribed displacements at points, or along the straight edges between two points; - leaves a component free "
+       "[]. Points are vertices of the mesh on the surface of the body. They hold rigid motions; a force on them, or on a "
+       "line, has infinite stress, and the displacement there grows as the mesh becomes finer.",
+       "length"},
+      {"entries \"x, y, z: ux, uy, uz\" or \"x, y, z, x2, y2, z2: ux, uy, uz\" separated by ';', as in \"0, 0, 0: 0, -, 0\""},
+      [&body](const ParameterValue &value) {
+        set_supports(body.supports, value);
       },
       "list of expressions");
     section.add(

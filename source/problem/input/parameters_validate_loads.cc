@@ -207,6 +207,11 @@ namespace mortise
                     });
       check_components(parameters, section + "/Body force", body.body_force);
       check_temperature(parameters, section, body);
+      for (const PointSupport &support : body.supports)
+        check_components(parameters,
+                         section + "/Displacement at",
+                         support.displacement,
+                         true);
       for (const auto &[name, boundary] : body.boundaries)
         check_boundary(parameters,
                        section + "/Boundary " + name,

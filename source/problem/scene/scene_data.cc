@@ -92,6 +92,12 @@ namespace mortise
       return value;
     }
 
+    std::array<bool, dim>
+    fixed(const std::vector<Component> &field)
+    {
+      return {{!field[0].free, !field[1].free, !field[2].free}};
+    }
+
     using VectorField = std::function<Tensor<1, dim>(const Point<dim> &)>;
 
     /// @p factor times what evaluate() gives joins @p fields.
@@ -136,7 +142,12 @@ namespace mortise
       return given && !all_zero({Component(*given, "", time)});
     };
     const auto has_loads = [&](const BodyParameters &body) {
-      return is_vector(body.body_force) || is_number(body.temperature) ||
+      return std::any_of(body.supports.begin(),
+                         body.supports.end(),
+                         [&](const PointSupport &support) {
+                           return is_vector(support.displacement);
+                         }) ||
+             is_vector(body.body_force) || is_number(body.temperature) ||
              (body.material.density > 0. && is_vector(parameters.gravity)) ||
              std::any_of(body.boundaries.begin(),
                          body.boundaries.end(),
@@ -386,8 +397,7 @@ namespace mortise
           DirichletCondition condition;
           condition.boundary =
             body.boundary_id(entry.first, parameters.where(where));
-          for (unsigned int c = 0; c < dim; ++c)
-            condition.fixed[c] = !field[c].free;
+          condition.fixed = fixed(field);
           const Tensor<2, dim> axes =
             RigidMotion(entry.second.displacement_axes, {}).rotation;
           const VectorField turn =
@@ -405,6 +415,29 @@ namespace mortise
                      factor);
           conditions.push_back(condition);
         }
+    for (const PointSupport &support : parameters.bodies[b].supports)
+      {
+        const auto field =
+          components(support.displacement,
+                     parameters.where("Body " + body.name + "/Displacement at"),
+                     time);
+        const auto        &ends = support.ends;
+        DirichletCondition condition;
+        condition.segment = {Point<dim>(ends[0], ends[1], ends[2]),
+                             Point<dim>(ends[ends.size() - 3],
+                                        ends[ends.size() - 2],
+                                        ends[ends.size() - 1])};
+        condition.fixed   = fixed(field);
+        if (!all_zero(field))
+          condition.value =
+            scaled(VectorField([=, &watch](const Point<dim> &x) {
+                     return evaluate(field, x, watch, [&](const Point<dim> &p) {
+                       return exact->displacement(p, b);
+                     });
+                   }),
+                   factor);
+        conditions.push_back(condition);
+      }
     return conditions;
   }
 } // namespace mortise

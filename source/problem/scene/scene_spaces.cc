@@ -134,6 +134,23 @@ namespace mortise
 
   namespace
   {
+    /// Points and lines are where vertices are. Collective.
+    void
+    check_supports(const RunContext                      &run,
+                   const Body                            &body,
+                   const std::vector<DirichletCondition> &dirichlet)
+    {
+      const auto &given   = run.parameters.bodies[body.index].supports;
+      auto        support = dirichlet.end() - given.size(); // the last ones
+      for (const PointSupport &of : given)
+        if (Utilities::MPI::max(faces_of(body, *support++).size(), run.comm) ==
+            0)
+          run.parameters.fail("Body " + body.name + "/Displacement at",
+                              in_quotes(of.text) +
+                                ", where the surface of the body has no vertex",
+                              "vertices of the mesh, or straight edges");
+    }
+
     /// The same conditions with the value zero.
     std::vector<DirichletCondition>
     homogeneous(std::vector<DirichletCondition> conditions)
@@ -249,6 +266,7 @@ namespace mortise
             " and degree 1 is too stiff (it locks); a higher Degree "
             "gives it a pressure of its own");
         spaces.dirichlet.push_back(data.dirichlet(*body));
+        check_supports(run, *body, spaces.dirichlet.back());
         zero.push_back(homogeneous(spaces.dirichlet.back()));
       }
     spaces.constraints       = constraints_of(spaces.bodies, zero);

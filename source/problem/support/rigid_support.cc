@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/body/boundary_faces.h>
+#include <mortise/body/elements/cell_face.h>
 #include <mortise/problem/support/rigid_support.h>
 
 #include <algorithm>
@@ -75,12 +76,14 @@ namespace mortise
   {
     Support support(1);
     for (const DirichletCondition &condition : dirichlet)
-      for (const auto &[cell, f] : boundary_faces(body, condition.boundary))
+      for (const auto &[cell, f] : faces_of(body, condition))
         if (cell->is_locally_owned() && part.has(cell))
-          for (const unsigned int v : cell->face(f)->vertex_indices())
-            for (unsigned int c = 0; c < dim; ++c)
-              if (condition.fixed[c])
-                support.add({row_of(where, c, cell->face(f)->vertex(v))});
+          for (unsigned int k = 0; k < cell->face(f)->n_vertices(); ++k)
+            if (const unsigned int v = CellFace(cell, f).vertices[k];
+                prescribes_vertex(condition, cell, v))
+              for (unsigned int c = 0; c < dim; ++c)
+                if (condition.fixed[c])
+                  support.add({row_of(where, c, cell->vertex(v))});
     support.finish(body.triangulation().get_communicator());
     return support;
   }

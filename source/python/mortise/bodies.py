@@ -188,6 +188,11 @@ class Body(Section):
     body_force: Expressions = parameter("Body force", 'auto', "list of expressions", "force per volume")
     """Force on the volume [force per volume]. auto: the force that balances the exact solution if that is given by expressions
     (it then includes Gravity), else zero. Allowed: three expressions "bx; by; bz" in x, y, z, t; exact; or auto."""
+    displacement_at: Expressions = parameter("Displacement at", (), "list of expressions", "length")
+    """Prescribed displacements at points, or along the straight edges between two points; - leaves a component free [length].
+    Points are vertices of the mesh on the surface of the body. They hold rigid motions; a force on them, or on a line, has
+    infinite stress, and the displacement there grows as the mesh becomes finer. Allowed: entries "x, y, z: ux, uy, uz" or "x, y,
+    z, x2, y2, z2: ux, uy, uz" separated by ';', as in "0, 0, 0: 0, -, 0"."""
     temperature: Optional[Expression] = parameter("Temperature", None, "expression", "temperature")
     """Temperature above that of the state without strain [temperature], which acts by Thermal expansion. Empty: none. Allowed: an
     expression in x, y, z, t."""

@@ -56,6 +56,14 @@ namespace mortise
     std::optional<std::string> normal_stiffness, tangential_stiffness;
   };
 
+  /// A prescribed displacement at a point, or along a straight line.
+  struct PointSupport
+  {
+    std::string         text; ///< of both
+    std::vector<double> ends; ///< coordinates of one or two points
+    Components          displacement;
+  };
+
   /// Unknowns of a body.
   enum class Formulation
   {
@@ -79,6 +87,7 @@ namespace mortise
     /// given by expressions, else zero.
     std::optional<Components>  body_force;
     std::optional<std::string> temperature; ///< above that without strain
+    std::vector<PointSupport>  supports;
     std::map<std::string, BoundaryParameters> boundaries;
   };
 
