@@ -221,26 +221,29 @@ namespace mortise
                         const double                       norm)
   {
     // the first cycle of a step has no change of its own
-    const std::vector<double> changes =
+    const NumbersByCell energy_changes =
       memory.n_cycles > 0 ? update_history(bodies, solutions, dual) :
-                            std::vector<double>(bodies.size(), 0.);
-    const double unit = norm > 0. ? norm : 1.;
+                            NumbersByCell(bodies.size());
+    const std::vector<double> changes = sums_by_body(energy_changes, comm);
+    const double              unit    = norm > 0. ? norm : 1.;
     ++memory.n_estimates;
+    const std::vector<double> now = sums_by_body(residuals.equations, comm);
+    learn_residuals(bodies,
+                    squares_by_residual(changes,
+                                        memory.n_cycles > 0 ? memory.residual :
+                                                              now,
+                                        now),
+                    cells);
     if (dual)
       {
+        raise_errors(bodies, residuals, energy_changes, cells);
         sums            = error_sums(bodies, cells);
         memory.estimate = memory.upper_estimate =
           std::hypot(sums.of_quantity(), memory.error_of_rest) / unit;
         correction = sums.with_sign + memory.error_of_rest;
         return;
       }
-    const std::vector<double> now = sums_by_body(residuals.equations, comm);
-    set_errors(bodies,
-               residuals,
-               squares_by_residual(changes,
-                                   memory.n_cycles > 0 ? memory.residual : now,
-                                   now),
-               cells);
+    set_errors(bodies, residuals, cells);
     sums                    = error_sums(bodies, cells);
     const double conditions = total(residuals.conditions, comm),
                  for_sure   = conditions + std::pow(unit * of_interfaces(), 2),
@@ -264,13 +267,15 @@ namespace mortise
                part_of_change * std::sqrt(of_plastic) / unit);
   }
 
-  std::vector<double>
+  NumbersByCell
   CycleErrors::update_history(const Bodies                      &bodies,
                               const std::vector<BodySolution>   &solutions,
                               const std::optional<DualSolution> &dual)
   {
     subtract(earlier, solutions);
-    NumbersByCell changes = energy_of_changes(bodies, solutions, earlier), own;
+    const NumbersByCell energies =
+      energy_of_changes(bodies, solutions, earlier);
+    NumbersByCell changes = energies, own;
     if (dual)
       {
         subtract(earlier_dual, dual->solutions);
@@ -298,7 +303,7 @@ namespace mortise
                                               least_ratio_of_rest)
                                  .left;
       }
-    return sums_by_body(changes, comm);
+    return energies;
   }
 
   NumbersByCell

@@ -235,24 +235,81 @@ namespace mortise
   }
 
   void
-  set_errors(const Bodies              &bodies,
-             const Residuals           &residuals,
-             const std::vector<double> &seen,
-             CellStates                &states)
+  learn_residuals(const Bodies              &bodies,
+                  const std::vector<double> &seen,
+                  CellStates                &states)
   {
     for_each_cell(bodies,
                   states,
-                  [&](const Body &body, const auto &cell, CellState &state) {
-                    const unsigned int k       = cell->active_cell_index();
-                    CellHistory       &history = state.history;
+                  [&](const Body &body, const auto &, CellState &state) {
+                    CellHistory &history = state.history;
                     // what one cycle has shown may be chance
                     if (history.is_refined)
                       history.by_residual =
                         std::max(seen[body.index],
                                  kept_of_earlier_cycles * history.by_residual);
-                    history.error =
-                      history.by_residual * residuals.equations[body.index][k] +
-                      residuals.conditions[body.index][k];
+                  });
+  }
+
+  namespace
+  {
+    double
+    error_by_residual(const CellHistory &history,
+                      const Residuals   &residuals,
+                      const unsigned int body,
+                      const unsigned int cell)
+    {
+      return history.by_residual * residuals.equations[body][cell] +
+             residuals.conditions[body][cell];
+    }
+  } // namespace
+
+  void
+  set_errors(const Bodies    &bodies,
+             const Residuals &residuals,
+             CellStates      &states)
+  {
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    state.history.error =
+                      error_by_residual(state.history,
+                                        residuals,
+                                        body.index,
+                                        cell->active_cell_index());
+                  });
+  }
+
+  void
+  raise_errors(const Bodies        &bodies,
+               const Residuals     &residuals,
+               const NumbersByCell &changes,
+               CellStates          &states)
+  {
+    std::vector<double> by_residual(bodies.size(), 0.),
+      by_changes(bodies.size(), 0.);
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    const CellHistory &history = state.history;
+                    const unsigned int k       = cell->active_cell_index();
+                    if (!history.is_refined || !(history.change > 0.))
+                      return;
+                    by_residual[body.index] +=
+                      error_by_residual(history, residuals, body.index, k);
+                    by_changes[body.index] +=
+                      changes[body.index][k] * history.error / history.change;
+                  });
+    const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
+    for (auto *sums : {&by_residual, &by_changes})
+      Utilities::MPI::sum(*sums, comm, *sums);
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &, CellState &state) {
+                    const unsigned int b = body.index;
+                    if (state.history.is_refined &&
+                        by_residual[b] > by_changes[b] && by_changes[b] > 0.)
+                      state.history.error *= by_residual[b] / by_changes[b];
                   });
   }
 
@@ -279,6 +336,7 @@ namespace mortise
   {
     ErrorSums sums;
     sums.by_body.resize(bodies.size(), 0.);
+    double contributions[3] = {0., 0., 0.}; // with sign, without, left
     for_each_cell(bodies,
                   states,
                   [&](const Body &body, const auto &, const CellState &state) {
@@ -286,6 +344,13 @@ namespace mortise
                     const double       part    = history.share * history.error;
                     sums.by_body[body.index] += history.error;
                     sums.with_sign += history.n_rises == 0 ? part : 0.;
+                    if (history.n_rises > 0)
+                      {
+                        const double change = history.share * history.change;
+                        contributions[0] += change;
+                        contributions[1] += std::fabs(change);
+                        contributions[2] += std::fabs(part);
+                      }
                     sums.by_lot += part * part;
                     sums.largest += largest_error(history);
                   });
@@ -295,6 +360,10 @@ namespace mortise
       *number = Utilities::MPI::sum(*number, comm);
     sums.all    = std::accumulate(sums.by_body.begin(), sums.by_body.end(), 0.);
     sums.by_lot = std::sqrt(sums.by_lot);
+    Utilities::MPI::sum(contributions, comm, contributions);
+    if (contributions[1] > 0.)
+      sums.like_before =
+        std::fabs(contributions[0]) / contributions[1] * contributions[2];
     return sums;
   }
 } // namespace mortise

@@ -24,13 +24,10 @@ namespace mortise
                           evaluation.forces(),
                           adaptivity->dual_start(bodies));
       }
-    std::vector<InterfaceResidual> broken;
-    Residuals                      missing;
-    if (!dual)
-      {
-        broken  = interface_residuals(evaluation);
-        missing = residuals(evaluation, broken);
-      }
+    auto            broken  = interface_residuals(evaluation);
+    const Residuals missing = residuals(evaluation, broken);
+    if (dual)
+      broken.clear();
     adaptivity->add(
       bodies, evaluation.solutions(), dual, std::move(broken), missing);
     if (dual && !dual->report.converged)

@@ -71,7 +71,7 @@ namespace mortise
     dual_start(const Bodies &bodies, bool go_on);
 
     /// The next cycle has been solved on @p bodies, which still have its spaces; @p dual: of a
-    /// quantity, @p broken, by interface, and @p residuals: without. Collective.
+    /// quantity; @p broken, by interface: without one. Collective.
     void
     add(const Bodies                      &bodies,
         const std::vector<BodySolution>   &solutions,
@@ -136,8 +136,8 @@ namespace mortise
     void
     forget_estimate();
     /// Histories from the change that the refinement before this cycle made;
-    /// its squares by body. Collective.
-    std::vector<double>
+    /// its squares in the energy norm. Collective.
+    NumbersByCell
     update_history(const Bodies                      &bodies,
                    const std::vector<BodySolution>   &solutions,
                    const std::optional<DualSolution> &dual);

@@ -27,13 +27,29 @@ namespace mortise
                   const NumbersByCell &own_parts,
                   CellStates          &states);
 
-  /// Errors in @p states from @p residuals; the last refinement has shown what square_by_residual() is: @p seen, by body. Other
-  /// cells keep what was seen of them.
+  /// The last refinement has shown what square_by_residual() is: @p seen, by body. Other cells keep in @p states what
+  /// was seen of them.
   void
-  set_errors(const Bodies              &bodies,
-             const Residuals           &residuals,
-             const std::vector<double> &seen,
-             CellStates                &states);
+  learn_residuals(const Bodies              &bodies,
+                  const std::vector<double> &seen,
+                  CellStates                &states);
+
+  /// Errors in @p states from @p residuals.
+  void
+  set_errors(const Bodies    &bodies,
+             const Residuals &residuals,
+             CellStates      &states);
+
+  /// Make the errors of a quantity larger, body by body, in cells of the last
+  /// refinement, where the residuals of the
+  /// solution leave a larger error than its @p changes, squares of the energy norm, and how they fell. Where the
+  /// solution is singular so is the dual one: the factor is that of squares.
+  /// Collective.
+  void
+  raise_errors(const Bodies        &bodies,
+               const Residuals     &residuals,
+               const NumbersByCell &changes,
+               CellStates          &states);
 
   /// Shares in @p states of the cells that were refined from the @p products (products_by_cell()) of
   /// the changes of a solution and of its dual problem's.
@@ -48,17 +64,19 @@ namespace mortise
   /// (doc/guide/adaptivity.md).
   struct ErrorSums
   {
-    double              all       = 0.; ///< as if all had one sign
-    double              with_sign = 0.; ///< of cells that were cut
-    double              by_lot = 0.; ///< of all, the root of the sum of squares
-    double              largest = 0.; ///< largest_error(), as all
-    std::vector<double> by_body;      ///< as all
+    double all       = 0.; ///< as if all had one sign
+    double with_sign = 0.; ///< of cells that were cut
+    double by_lot    = 0.; ///< of all, the root of the sum of squares
+    /// Of cells that rose, if these go on with the signs that they had.
+    double              like_before = 0.;
+    double              largest     = 0.; ///< largest_error(), as all
+    std::vector<double> by_body;          ///< as all
 
     /// Of a quantity, two standard deviations of what goes by lot.
     double
     of_quantity() const
     {
-      return std::hypot(with_sign, 2. * by_lot);
+      return std::hypot(with_sign, std::hypot(2. * by_lot, like_before));
     }
   };
 
