@@ -104,7 +104,7 @@ namespace mortise::testing
         {
           scalar = std::make_unique<FE_Q<dim>>(degree);
           points = scalar->get_unit_support_points();
-          rule = single_rule = QGauss<dim>(degree + 1);
+          rule = single_rule = with_gram(QGauss<dim>(degree + 1));
           return;
         }
       const VertexOrder order = vertex_order(cell);
@@ -133,17 +133,69 @@ namespace mortise::testing
           to_modes(i, k) = scalar->shape_value(k, points[i]);
       to_modes.gauss_jordan();
       const auto local_rule = [&](const Quadrature<dim> &ascending) {
-        return Quadrature<dim>(to_local(ascending.get_points()),
-                               ascending.get_weights());
+        return with_gram(Quadrature<dim>(to_local(ascending.get_points()),
+                                         ascending.get_weights()));
       };
       rule        = local_rule(simplex_rule<double>(degree));
       single_rule = local_rule(simplex_rule<float>(degree));
     }
 
+    /// Values at nodes to coefficients of the functions of the element.
+    std::vector<double>
+    coefficients(const std::vector<double> &at_nodes) const
+    {
+      if (to_modes.empty())
+        return at_nodes;
+      dealii::Vector<double> nodes(at_nodes.begin(), at_nodes.end()),
+        modes(at_nodes.size());
+      to_modes.vmult(modes, nodes);
+      return {modes.begin(), modes.end()};
+    }
+
+    struct Rule
+    {
+      Quadrature<dim> points;
+      /// sum_i Grad N_i x Grad N_i on the reference cell, N_i the nodal basis
+      std::vector<Tensor<2, dim>> gram;
+    };
+
     std::unique_ptr<FiniteElement<dim>> scalar;
     std::vector<Point<dim>>             points;
     FullMatrix<double> to_modes; ///< (mode, node) on tetrahedra
-    Quadrature<dim>    rule, single_rule;
+    Rule               rule, single_rule;
+
+  private:
+    Rule
+    with_gram(const Quadrature<dim> &at) const
+    {
+      Triangulation<dim> cell;
+      GridGenerator::reference_cell(cell, scalar->reference_cell());
+      FEValues<dim> values(
+        scalar->reference_cell().template get_default_linear_mapping<dim>(),
+        *scalar,
+        at,
+        update_gradients);
+      values.reinit(cell.begin_active());
+      const unsigned int n = scalar->n_dofs_per_cell();
+      FullMatrix<double> of_functions(dim * at.size(), n),
+        of_nodes(dim * at.size(), n);
+      for (unsigned int q = 0; q < at.size(); ++q)
+        for (unsigned int k = 0; k < n; ++k)
+          for (unsigned int e = 0; e < dim; ++e)
+            of_functions(dim * q + e, k) = values.shape_grad(k, q)[e];
+      if (to_modes.empty())
+        of_nodes = of_functions;
+      else
+        of_functions.mmult(of_nodes, to_modes);
+      Rule result{at, std::vector<Tensor<2, dim>>(at.size())};
+      for (unsigned int q = 0; q < at.size(); ++q)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int e = 0; e < dim; ++e)
+            for (unsigned int f = 0; f < dim; ++f)
+              result.gram[q][e][f] +=
+                of_nodes(dim * q + e, i) * of_nodes(dim * q + f, i);
+      return result;
+    }
   };
 
   /// Calls visit(body, cell, basis, nodes) for the owned cells.
@@ -201,44 +253,37 @@ namespace mortise::testing
 
   using ValuesOfCell = std::array<std::vector<double>, dim>;
 
-  /// By deal.II's gradients at the points of the rule.
+  /// By deal.II's gradients at the points of the rule. A diagonal entry is the
+  /// energy of a function in one component, C_cecf dN_i/dx_e dN_i/dx_f, so that
+  /// their sum needs only the sum over i of products of gradients.
   void
-  add_by_points(const Body               &body,
-                const Body::CellIterator &cell,
-                const NodalBasis         &basis,
-                const Quadrature<dim>    &rule,
-                const ValuesOfCell       &w,
-                const ValuesOfCell       &u,
-                Sums                     &sums)
+  add_by_points(const Material                    &material,
+                const FEValues<dim>               &values,
+                const std::vector<Tensor<2, dim>> &gram_of_reference,
+                const ValuesOfCell                &w,
+                const ValuesOfCell                &u,
+                Sums                              &sums)
   {
-    FEValues<dim> values(*body.mapping,
-                         *basis.scalar,
-                         rule,
-                         update_gradients | update_JxW_values);
-    values.reinit(Triangulation<dim>::cell_iterator(cell));
+    const Moduli C = std::visit([](const auto &law) { return moduli(law); },
+                                material.displacement_law());
     for (const unsigned int q : values.quadrature_point_indices())
       {
         Tensor<2, dim> grad_u, grad_w; // [c][e]
         for (const unsigned int i : values.dof_indices())
-          {
-            Tensor<1, dim> gradient;
-            if (basis.to_modes.empty())
-              gradient = values.shape_grad(i, q);
-            for (unsigned int k = 0; k < basis.to_modes.m(); ++k)
-              gradient += basis.to_modes(k, i) * values.shape_grad(k, q);
-            double energy = 0.; // of all components, each alone
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                grad_u[c] += u[c][i] * gradient;
-                grad_w[c] += w[c][i] * gradient;
-                Tensor<2, dim> alone;
-                alone[c] = gradient;
-                energy += body.material.twice_energy(alone, 0.);
-              }
-            sums.trace += values.JxW(q) * energy;
-          }
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              grad_u[c] += u[c][i] * values.shape_grad(i, q);
+              grad_w[c] += w[c][i] * values.shape_grad(i, q);
+            }
         sums.product +=
-          values.JxW(q) * (body.material.stress(grad_u) * symmetrize(grad_w));
+          values.JxW(q) * (material.stress(grad_u) * symmetrize(grad_w));
+        const Tensor<2, dim> to_reference(values.inverse_jacobian(q)); // [f][e]
+        const Tensor<2, dim> gram =
+          transpose(to_reference) * gram_of_reference[q] * to_reference;
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int e = 0; e < dim; ++e)
+            for (unsigned int f = 0; f < dim; ++f)
+              sums.trace += values.JxW(q) * C[c][e][c][f] * gram[e][f];
       }
   }
 
@@ -250,30 +295,43 @@ namespace mortise::testing
            const LevelVector<double> &u)
   {
     const MultigridLevel &level = scene.levels.front();
-    Sums                  sums;
+    std::map<std::pair<const Body *, const NodalBasis *>,
+             std::unique_ptr<FEValues<dim>>>
+         made;
+    Sums sums;
     u.update_ghost_values();
     w.update_ghost_values();
-    for_each_cell(level,
-                  [&](const Body       &body,
-                      const auto       &cell,
-                      const NodalBasis &basis,
-                      const auto       &nodes) {
-                    const auto read = [&](const LevelVector<double> &v) {
-                      ValuesOfCell result;
-                      for (unsigned int c = 0; c < dim; ++c)
-                        for (const auto node : nodes)
-                          result[c].push_back(v.local_element(
-                            level.layout->global_to_local(dim * node + c)));
-                      return result;
-                    };
-                    add_by_points(body,
-                                  cell,
-                                  basis,
-                                  single ? basis.single_rule : basis.rule,
-                                  read(w),
-                                  read(u),
-                                  sums);
-                  });
+    for_each_cell(
+      level,
+      [&](const Body       &body,
+          const auto       &cell,
+          const NodalBasis &basis,
+          const auto       &nodes) {
+        const auto &rule   = single ? basis.single_rule : basis.rule;
+        auto       &values = made[{&body, &basis}];
+        if (!values)
+          values = std::make_unique<FEValues<dim>>(*body.mapping,
+                                                   *basis.scalar,
+                                                   rule.points,
+                                                   update_gradients |
+                                                     update_JxW_values |
+                                                     update_inverse_jacobians);
+        values->reinit(Triangulation<dim>::cell_iterator(cell));
+        const auto read = [&](const LevelVector<double> &v) {
+          ValuesOfCell result;
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              std::vector<double> at_nodes;
+              for (const auto node : nodes)
+                at_nodes.push_back(v.local_element(
+                  level.layout->global_to_local(dim * node + c)));
+              result[c] = basis.coefficients(at_nodes);
+            }
+          return result;
+        };
+        add_by_points(
+          body.material, *values, rule.gram, read(w), read(u), sums);
+      });
     u.zero_out_ghost_values();
     w.zero_out_ghost_values();
     return {Utilities::MPI::sum(sums.product, MPI_COMM_WORLD),

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 namespace mortise::testing
@@ -100,6 +101,30 @@ namespace mortise::testing
       for (const unsigned int q : values.quadrature_point_indices())
         sum += values.JxW(q) * pressure(of_p, q) * pressure(of_q, q);
       return sum;
+    }
+
+    /// p^2 at the points, the same on all cells
+    std::vector<double>
+    squares(const std::vector<double> &of_p) const
+    {
+      std::vector<double> result;
+      for (const unsigned int q : values.quadrature_point_indices())
+        {
+          const double p = pressure(of_p, q);
+          result.push_back(p * p);
+        }
+      return result;
+    }
+
+    /// p.Mp of several p, given by their squares() at the points
+    std::vector<double>
+    masses(const std::vector<std::vector<double>> &squares) const
+    {
+      std::vector<double> result;
+      for (const auto &square : squares)
+        result.push_back(std::inner_product(
+          square.begin(), square.end(), values.get_JxW_values().begin(), 0.));
+      return result;
     }
 
     /// [K G^T; G M] of few functions, the components of N_i beside each other.
