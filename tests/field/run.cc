@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -107,8 +108,9 @@ namespace
     if (!words || of != "of" || relation != "=" || kind != "relative")
       throw std::runtime_error(
         "a field has the form 'field NAME of FILE.vtu = NUMBER relative NUMBER'");
-    const mortise::testing::VtuContent content(outcome.directory / file);
-    const auto                         field = content.data.find(name);
+    const mortise::testing::VtuPieces<std::array<double, 3>> content(
+      outcome.directory / file);
+    const auto field = content.data.find(name);
     if (field == content.data.end())
       return "there is none";
     double worst = value;

@@ -18,7 +18,6 @@
 #include "polynomial_field.h"
 #include "surface_integral.h"
 #include "vtk_nodes.h"
-#include "vtu_content.h"
 
 namespace mortise::testing
 {

@@ -2,14 +2,49 @@
 // VTK says of them alone.
 #pragma once
 
+#include <deal.II/base/point.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/tensor.h>
+
+#include <cmath>
+#include <limits>
 
 #include "vtk_nodes.h"
 #include "vtu_content.h"
 
 namespace mortise::testing
 {
+  using VtuContent = VtuPieces<dealii::Point<3>>;
+
+  /// Volume or area of a cell by its corners: parallelepipeds and simplices.
+  inline double
+  size_of(const VtuContent &file, const unsigned int cell)
+  {
+    const auto edge = [&](const unsigned int v) {
+      return file.points[file.cells[cell].at(v)] -
+             file.points[file.cells[cell][0]];
+    };
+    switch (file.types[cell])
+      {
+        case 5:
+        case 69:
+          return dealii::cross_product_3d(edge(1), edge(2)).norm() / 2.;
+        case 9:
+        case 70:
+          return dealii::cross_product_3d(edge(1), edge(3)).norm();
+        case 10:
+        case 71:
+          return std::fabs(dealii::cross_product_3d(edge(1), edge(2)) *
+                           edge(3)) /
+                 6.;
+        case 12:
+        case 72:
+          return dealii::cross_product_3d(edge(1), edge(3)) * edge(4);
+        default:
+          return std::numeric_limits<double>::quiet_NaN();
+      }
+  }
+
   /// prod_k (n t - k) / (k + 1) over k < m: one at t = m / n, zero at smaller k
   /// / n; and its slope.
   inline std::array<double, 2>

@@ -1,29 +1,30 @@
 // Reader of VTU files for tests, in the format that the program writes, binary
-// and compressed.
+// and compressed. It needs nothing of deal.II, whose
+// libraries take long to load.
 #pragma once
 
-#include <deal.II/base/exceptions.h>
-#include <deal.II/base/point.h>
-#include <deal.II/base/utilities.h>
+#include <boost/archive/iterators/binary_from_base64.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
 
 #include <zlib.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace mortise::testing
 {
-  /// The pieces of a file one after the other.
-  struct VtuContent
+  /// The pieces of a file one after the other. @p Point: made of three numbers.
+  template <typename Point>
+  struct VtuPieces
   {
-    explicit VtuContent(const std::string &file)
+    explicit VtuPieces(const std::string &file)
     {
       std::ostringstream all;
       all << std::ifstream(file).rdbuf();
@@ -33,7 +34,7 @@ namespace mortise::testing
         add_piece(text.substr(at, text.find("</Piece>", at) - at));
     }
 
-    std::vector<dealii::Point<3>>          points;
+    std::vector<Point>                     points;
     std::vector<std::vector<unsigned int>> cells; ///< numbers of points
     std::vector<unsigned int>              types;
     std::vector<std::string>               names; ///< of point data
@@ -53,6 +54,26 @@ namespace mortise::testing
       return tag.substr(begin, tag.find('"', begin) - begin);
     }
 
+    static void
+    require(const bool condition, const std::string &otherwise)
+    {
+      if (!condition)
+        throw std::runtime_error(otherwise);
+    }
+
+    static std::vector<unsigned char>
+    from_base64(const std::string &text)
+    {
+      namespace Iterators = boost::archive::iterators;
+      using Bytes         = Iterators::transform_width<
+        Iterators::binary_from_base64<std::string::const_iterator>,
+        8,
+        6>;
+      std::vector<unsigned char> bytes(Bytes(text.begin()), Bytes(text.end()));
+      bytes.resize(bytes.size() - std::count(text.begin(), text.end(), '='));
+      return bytes;
+    }
+
     /// Number of blocks, sizes of whole ones and of the last if it is another,
     /// compressed sizes, all in base 64; the blocks in base 64.
     static std::string
@@ -67,13 +88,12 @@ namespace mortise::testing
       const std::size_t   begin = text.find_first_not_of(" \n");
       const std::size_t   end   = text.find_last_not_of(" \n") + 1;
       const std::uint32_t n_blocks =
-        number(dealii::Utilities::decode_base64(text.substr(begin, 8)), 0);
+        number(from_base64(text.substr(begin, 8)), 0);
       const std::size_t header_size = (4 * (3 + n_blocks) + 2) / 3 * 4;
-      const auto        header =
-        dealii::Utilities::decode_base64(text.substr(begin, header_size));
+      const auto        header = from_base64(text.substr(begin, header_size));
       if (n_blocks == 0)
         return "";
-      const auto blocks = dealii::Utilities::decode_base64(
+      const auto blocks = from_base64(
         text.substr(begin + header_size, end - begin - header_size));
       std::string result;
       std::size_t at = 0;
@@ -82,18 +102,17 @@ namespace mortise::testing
           const bool  last = b + 1 == n_blocks && number(header, 2) > 0;
           std::string block(number(header, last ? 2 : 1), '\0');
           uLongf      size = block.size();
-          AssertThrow(at + number(header, 3 + b) <= blocks.size() &&
-                        uncompress(reinterpret_cast<Bytef *>(&block[0]),
-                                   &size,
-                                   &blocks[at],
-                                   number(header, 3 + b)) == Z_OK &&
-                        size == block.size(),
-                      dealii::ExcMessage("the data are broken"));
+          require(at + number(header, 3 + b) <= blocks.size() &&
+                    uncompress(reinterpret_cast<Bytef *>(&block[0]),
+                               &size,
+                               &blocks[at],
+                               number(header, 3 + b)) == Z_OK &&
+                    size == block.size(),
+                  "the data are broken");
           at += number(header, 3 + b);
           result += block;
         }
-      AssertThrow(at == blocks.size(),
-                  dealii::ExcMessage("the compressed size is another"));
+      require(at == blocks.size(), "the compressed size is another");
       return result;
     }
 
@@ -138,7 +157,7 @@ namespace mortise::testing
         types.insert(types.end(), values.begin(), values.end());
       else if (name == "Points")
         for (unsigned int i = 0; i < values.size(); i += 3)
-          points.emplace_back(values[i], values[i + 1], values[i + 2]);
+          points.push_back(Point{values[i], values[i + 1], values[i + 2]});
       else
         {
           const std::string  given = attribute(tag, "NumberOfComponents");
@@ -163,41 +182,12 @@ namespace mortise::testing
                     text.substr(begin, text.find('<', begin) - begin),
                     at > text.find("<CellData"));
         }
-      AssertThrow(points.size() - first_point ==
-                    std::stoul(attribute(text, "NumberOfPoints")),
-                  dealii::ExcMessage("the number of points is another"));
+      require(points.size() - first_point ==
+                std::stoul(attribute(text, "NumberOfPoints")),
+              "the number of points is another");
     }
 
     unsigned int        first_point = 0;
     std::vector<double> connectivity;
   };
-
-  /// Volume or area of a cell by its corners: parallelepipeds and simplices.
-  inline double
-  size_of(const VtuContent &file, const unsigned int cell)
-  {
-    const auto edge = [&](const unsigned int v) {
-      return file.points[file.cells[cell].at(v)] -
-             file.points[file.cells[cell][0]];
-    };
-    switch (file.types[cell])
-      {
-        case 5:
-        case 69:
-          return dealii::cross_product_3d(edge(1), edge(2)).norm() / 2.;
-        case 9:
-        case 70:
-          return dealii::cross_product_3d(edge(1), edge(3)).norm();
-        case 10:
-        case 71:
-          return std::fabs(dealii::cross_product_3d(edge(1), edge(2)) *
-                           edge(3)) /
-                 6.;
-        case 12:
-        case 72:
-          return dealii::cross_product_3d(edge(1), edge(3)) * edge(4);
-        default:
-          return std::numeric_limits<double>::quiet_NaN();
-      }
-  }
 } // namespace mortise::testing
