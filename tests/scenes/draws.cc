@@ -134,15 +134,15 @@ main(int argc, char *argv[])
   const auto share = [&](const unsigned int n) {
     return n_ranks == 1 ? n : (n + 14) / 15;
   };
-  check("2x2x2 cubes", share(12), 1, {"condensed"}, false);
-  check("2x2x2 cubes", share(12), 101, {"saddle point"}, false);
-  check("2x2x2 cubes", share(12), 201, {"direct"}, false);
-  check("3x3x3 cubes", share(6), 1, {"condensed"}, false);
-  check("3x3x3 cubes", share(5), 101, {"saddle point"}, false);
-  check("3x3x3 cubes", share(5), 201, {"direct"}, false);
-  check("many bricks", share(6), 1, {"auto"}, false);
-  check("bricks", share(12), 301, {"direct", "auto"}, false);
-  check("towers", share(12), 301, {"direct", "auto"}, false);
+  check("2x2x2 cubes", share(6), 1, {"condensed"}, false);
+  check("2x2x2 cubes", share(6), 101, {"saddle point"}, false);
+  check("2x2x2 cubes", share(6), 201, {"direct"}, false);
+  check("3x3x3 cubes", share(3), 1, {"condensed"}, false);
+  check("3x3x3 cubes", share(3), 101, {"saddle point"}, false);
+  check("3x3x3 cubes", share(3), 201, {"direct"}, false);
+  check("many bricks", share(4), 1, {"auto"}, false);
+  check("bricks", share(8), 301, {"direct", "auto"}, false);
+  check("towers", share(6), 301, {"direct", "auto"}, false);
   for (const std::string family : {"2x2x2 cubes", "bricks", "towers"})
     {
       check(family, share(6), 401, {"auto"}, false, "tie", "dual");
