@@ -91,22 +91,27 @@ projection_errors(const unsigned int p, const unsigned int n, const bool curved)
     {
       fe_values.reinit(cell);
       const FEValues<3> &values = fe_values.get_present_fe_values();
-      FullMatrix<double> local(size);
-      Vector<double>     local_rhs(size);
+      // local = A^T A, local_rhs = A^T b: by component and value, of points
+      const unsigned int n = values.n_quadrature_points;
+      FullMatrix<double> A(4 * n, size), local(size);
+      Vector<double>     b(4 * n), local_rhs(size);
       for (const unsigned int q : values.quadrature_point_indices())
         {
-          const double       f  = value(values.quadrature_point(q));
-          const Tensor<1, 3> df = gradient(values.quadrature_point(q));
+          const double       scale = std::sqrt(values.JxW(q));
+          const Tensor<1, 3> df    = gradient(values.quadrature_point(q));
+          b(q)                     = scale * value(values.quadrature_point(q));
+          for (unsigned int d = 0; d < 3; ++d)
+            b((d + 1) * n + q) = scale * df[d];
           for (unsigned int i = 0; i < size; ++i)
             {
-              const double       v  = values.shape_value(i, q) * values.JxW(q);
-              const Tensor<1, 3> dv = values.shape_grad(i, q) * values.JxW(q);
-              local_rhs(i) += v * f + dv * df;
-              for (unsigned int j = 0; j < size; ++j)
-                local(i, j) +=
-                  v * values.shape_value(j, q) + dv * values.shape_grad(j, q);
+              A(q, i)               = scale * values.shape_value(i, q);
+              const Tensor<1, 3> dv = scale * values.shape_grad(i, q);
+              for (unsigned int d = 0; d < 3; ++d)
+                A((d + 1) * n + q, i) = dv[d];
             }
         }
+      A.Tmmult(local, A);
+      A.Tvmult(local_rhs, b);
       cell->get_dof_indices(dofs);
       constraints.distribute_local_to_global(
         local, local_rhs, dofs, matrix, rhs);
