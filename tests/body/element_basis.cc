@@ -221,26 +221,25 @@ projection_error(const FiniteElement<3> &fe, const unsigned int p)
   const auto      f = [](const Point<3> &x) {
     return std::sin(6. * x[0] + 3. * x[1]) * std::exp(x[2]);
   };
-  FullMatrix<double>                   local(fe.n_dofs_per_cell());
-  Vector<double>                       local_rhs(fe.n_dofs_per_cell());
+  FullMatrix<double> local(fe.n_dofs_per_cell());
+  Vector<double>     local_rhs(fe.n_dofs_per_cell());
+  // local = A^T A, local_rhs = A^T b: by point, and function
+  FullMatrix<double> A(quadrature.size(), fe.n_dofs_per_cell());
+  Vector<double>     b(quadrature.size());
   std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
   std::vector<double>                  at_points(quadrature.size());
   for (const auto &cell : dof_handler.active_cell_iterators())
     {
       values.reinit(cell);
-      local     = 0.;
-      local_rhs = 0.;
       for (unsigned int q = 0; q < quadrature.size(); ++q)
-        for (unsigned int i = 0; i < dofs.size(); ++i)
-          {
-            const double vi = values.shape_value(i, q) * values.JxW(q);
-            local_rhs(i) += vi * f(values.quadrature_point(q));
-            for (unsigned int j = 0; j <= i; ++j)
-              local(i, j) += vi * values.shape_value(j, q);
-          }
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        for (unsigned int j = i + 1; j < dofs.size(); ++j)
-          local(i, j) = local(j, i);
+        {
+          const double scale = std::sqrt(values.JxW(q));
+          b(q)               = scale * f(values.quadrature_point(q));
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            A(q, i) = scale * values.shape_value(i, q);
+        }
+      A.Tmmult(local, A);
+      A.Tvmult(local_rhs, b);
       cell->get_dof_indices(dofs);
       constraints.distribute_local_to_global(local, local_rhs, dofs, mass, rhs);
     }
