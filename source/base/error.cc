@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <sstream>
 
 namespace mortise
 {
@@ -62,6 +63,26 @@ namespace mortise
           }
       }
     return best;
+  }
+
+  std::string
+  join_lines(const std::vector<std::string> &texts, const std::size_t most)
+  {
+    std::vector<std::string> lines;
+    for (const std::string &text : texts)
+      {
+        std::istringstream in(text);
+        for (std::string line; std::getline(in, line);)
+          lines.push_back(line);
+      }
+    const std::size_t shown = lines.size() <= most ? lines.size() : most - 1;
+    std::string       result;
+    for (std::size_t i = 0; i < shown; ++i)
+      result += (i > 0 ? "\n" : "") + lines[i];
+    return shown == lines.size() ?
+             result :
+             result + "\n... (" + std::to_string(lines.size() - shown) +
+               " lines more)";
   }
 
   std::string

@@ -86,6 +86,9 @@ namespace mortise
   {
     check_output_directory(context.parameters, context.comm);
     create_meshes();
+    for (const auto &body : bodies)
+      for (const std::string &warning : body->mesh.warnings)
+        context.log.warning("body " + body->name + ": " + warning);
     std::set<unsigned int> of_points;
     for (const PointQuantity &point : context.parameters.output.points)
       of_points.insert(point.body);

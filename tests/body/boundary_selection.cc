@@ -123,8 +123,8 @@ Mesh.MeshSizeMax = 3;
            "'hole: cylinder radius 7' chooses no face; there are 1: ");
     refuse("faces of two boundaries",
            "foot: plane z = 0; all: box -30, -30, -10, 30, 30, 30",
-           "'foot: plane z = 0' and 'all: box -30, -30, -10, 30, 30, 30' both "
-           "choose the face at (");
+           "'foot: plane z = 0' and 'all: box -30, -30, -10, 30, 30, 30' of "
+           "Boundaries both choose: ");
     q.boundaries = "";
     if (q.file.find(".msh") != std::string::npos)
       refused("no names at all",

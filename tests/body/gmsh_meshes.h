@@ -10,7 +10,9 @@
 #include <verdict.h>
 
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace gmsh_test
 {
@@ -32,6 +34,22 @@ namespace gmsh_test
     std::ifstream in(name, std::ios::binary);
     return std::string((std::istreambuf_iterator<char>(in)),
                        std::istreambuf_iterator<char>());
+  }
+
+  /// @p nodes "x y z" and @p elements (without their numbers) as a file.
+  inline std::string
+  mesh_text(const std::vector<std::string> &nodes,
+            const std::vector<std::string> &elements)
+  {
+    std::ostringstream text;
+    text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"
+         << nodes.size() << "\n";
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      text << i + 1 << " " << nodes[i] << "\n";
+    text << "$EndNodes\n$Elements\n" << elements.size() << "\n";
+    for (unsigned int i = 0; i < elements.size(); ++i)
+      text << i + 1 << " " << elements[i] << "\n";
+    return text.str() + "$EndElements\n";
   }
 
   struct Format

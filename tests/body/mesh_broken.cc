@@ -28,22 +28,6 @@ Physical Surface("low") = {5};
     return file_parameters(write_file("broken.msh", content));
   }
 
-  /// @p nodes "x y z" and @p elements (without their numbers) as a file.
-  std::string
-  mesh_text(const std::vector<std::string> &nodes,
-            const std::vector<std::string> &elements)
-  {
-    std::ostringstream text;
-    text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"
-         << nodes.size() << "\n";
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      text << i + 1 << " " << nodes[i] << "\n";
-    text << "$EndNodes\n$Elements\n" << elements.size() << "\n";
-    for (unsigned int i = 0; i < elements.size(); ++i)
-      text << i + 1 << " " << elements[i] << "\n";
-    return text.str() + "$EndElements\n";
-  }
-
   /// A file cut anywhere is refused, or still has all that counts.
   void
   check_cut_files(const Format &format)
@@ -224,9 +208,10 @@ Physical Surface("low") = {5};
               broken(mesh_text(corners, {face, first, "4 2 1 1 2 3 4 5"}))) ==
               "(no error)",
             "two good tetrahedra");
-    refused("a tetrahedron of negative volume",
-            broken(mesh_text(corners, {face, first, second})),
-            "turned inside out (negative volume), at (0.5, 0.5, 0.5)");
+    refused(
+      "a tetrahedron of negative volume",
+      broken(mesh_text(corners, {face, first, second})),
+      "turned inside out (negative volume): 1, cell 3 at (0.5, 0.5, 0.5)");
     verdict(message_of(
               broken(mesh_text(corners, {face, "4 2 1 1 2 1 3 4", second}))) ==
               "(no error)",
@@ -239,12 +224,13 @@ Physical Surface("low") = {5};
             broken(
               mesh_text({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 2", "0 0 3"},
                         {face, first, "4 2 1 1 1 2 3 5", "4 2 1 1 1 2 3 6"})),
-            "3 cells at one face, near (0, 0, 0)");
+            "faces of more than two cells: 1, cells 2, 3, 4 at (0.333333, "
+            "0.333333, 0)");
     refused("a wedge of negative volume beside a tetrahedron",
             broken(mesh_text(
               {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 1", "0 1 1", "0 0 -1"},
               {"2 2 7 1 4 5 6", "6 2 1 1 4 5 6 1 2 3", "4 2 1 1 1 3 2 7"})),
-            "turned inside out (negative volume)");
+            "turned inside out (negative volume): 1, cell 2 at");
     refused("surfaces only",
             broken(mesh_text(corners, {face})),
             "no volume elements");
@@ -256,10 +242,10 @@ Physical Surface("low") = {5};
             "names no boundary of this part");
     refused("a surface in two physical ones",
             broken(mesh_text(corners, {face, "2 2 8 1 1 2 3", first})),
-            "in 2 physical surfaces, 7, 8");
+            "faces in several physical surfaces: 1, cell 3 in 7, 8 at");
     refused("a face in two surfaces, each in a physical one",
             broken(mesh_text(corners, {face, "2 2 8 2 1 2 3", first})),
-            "has a face at (0, 0, 0) in 2 physical surfaces, 7, 8");
+            "faces in several physical surfaces: 1, cell 3 in 7, 8 at");
     refused("a file of third order",
             file_parameters(
               write_mesh("broken_third", cube, {4.1, false, 3, false, false})),
@@ -277,8 +263,8 @@ Physical Surface("low") = {5};
     refused(
       "a surface element through the body",
       broken(mesh_text(corners, {face, "2 2 7 1 1 2 5", one, other})),
-      "has the surface element 2 in the physical surface '7' between the "
-      "nodes 1, 2, 5, the first at (0, 0, 0), which is a face of no cell");
+      "surface elements that are a face of no cell: 1, element 2 of '7' between "
+      "the nodes 1, 2, 5, the first at (0, 0, 0)");
     refused("a quadrilateral on a face that is a triangle",
             broken(mesh_text(corners, {face, "3 2 7 1 1 2 3 4", one, other})),
             "between the nodes 1, 2, 3, 4");
@@ -369,7 +355,7 @@ Physical Surface("low") = {5};
     nodes[4] = ".9 0 0"; // the map doubles back before vertex 2
     refused("a folded cell of second order",
             broken(mesh_text(nodes, elements)),
-            "its curved sides fold, near (");
+            "their curved sides fold: 1, cell ");
     refused(
       "what helps against it",
       broken(mesh_text(nodes, elements)),
@@ -401,7 +387,7 @@ Physical Surface("low") = {5};
   void
   check_coinciding_nodes()
   {
-    const std::string two = "has two nodes at (1, ";
+    const std::string two = "at one place, which leave the cells apart there: ";
     refused("a crack", broken(two_cubes(1, 1, 0, 0)), two);
     refused("a crack named on one side", broken(two_cubes(1, 1, 7, 0)), two);
     refused("a crack within one volume, with one name",

@@ -266,8 +266,8 @@ main(int argc, char **argv)
                replaced(version_2,
                         "6 5 2 3 1 2 3 6 5 8 9 12 11",
                         "6 4 2 3 1 2 3 6 9")),
-          "between the nodes 2, 6, 5, the first at (1, 0, 0), which is a face "
-          "of no cell");
+          "surface elements that are a face of no cell: 1, element 3 of "
+          "'bottom' between the nodes 2, 6, 5, the first at (1, 0, 0)");
   refused("no volume elements",
           file("bad.msh",
                replaced(replaced(replaced(version_2,

@@ -141,8 +141,8 @@ namespace
                "outer: inside",
                "outer",
                {"Interface glue/Master", "\"outer\"", "body: boundary"});
-    const std::vector<std::vector<std::string>> names = {
-      {"inside", "outside", "xmin", "zmin"}, {"inside", "outside"}};
+    const mortise::NamesOfBoundaries names = {
+      {{"inside", "outside", "xmin", "zmin"}}, {{"inside", "outside"}}};
     check_message("all boundaries exist",
                   [&] {
                     check_boundary_names(parse_parameters(scene, "a.prm"),

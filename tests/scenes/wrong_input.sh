@@ -98,6 +98,52 @@ head -c 3000 /dev/urandom >"$work/noise.msh"
 geometry=$prm/../meshes/thick_sphere_tet.geo
 expect 2 'MeshFormat' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$work/solid.msh"
 expect_itself 2 'MeshFormat' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$work/solid.msh"
+# all faults of all meshes and names at once; what may be meant is told, and no error
+cat >"$work/cracked.inp" <<'END'
+*NODE
+1,0,0,0
+2,1,0,0
+3,1,1,0
+4,0,1,0
+5,0,0,1
+6,1,0,1
+7,1,1,1
+8,0,1,1
+9,2,0,0
+10,2,1,0
+11,2,0,1
+12,2,1,1
+21,1,0,0
+22,1,1,0
+23,1,0,1
+24,1,1,1
+30,9,9,9
+*ELEMENT, TYPE=C3D8, ELSET=all
+1, 1,2,3,4,5,6,7,8
+2, 21,9,10,22,23,11,12,24
+*SURFACE, NAME=zmax
+1, S2
+END
+sed 's/^2, .*/2, 2,9,10,3,6,11,12,7/' "$work/cracked.inp" >"$work/whole.inp"
+for by in expect_itself expect; do
+  validate=()
+  [ "$by" = expect ] || validate=(--validate)
+  for pattern in 'Body lower, Mesh: .*cracked.inp. has faults' 'error: pairs of nodes at one place.* 4, nodes 2 and 21 at' \
+    'warning: nodes that no cell and no face has: 1, node 30 at (9, 9, 9)' 'Body upper, Mesh: .*missing.msh' \
+    'body "lower" has no boundary "xmin"'; do
+    "$by" 2 "$pattern" "${validate[@]}" "$scene" "${file[@]}" --set "Body lower/Mesh/File=$work/cracked.inp" \
+      --set 'Body upper/Mesh/Source=file' --set 'Body upper/Mesh/Extent=' --set 'Body upper/Mesh/Subdivisions=' \
+      --set 'Body upper/Mesh/File=missing.msh'
+  done
+done
+told=$("$mortise" --validate "$scene" "${file[@]}" --set "Body lower/Mesh/File=$work/whole.inp" \
+  --set "Body lower/Mesh/Boundaries=xmin: plane x = 0; ymin: plane y = 0; zmin: plane z = 0; xmax: plane x = 2; ymax: plane y = 1" 2>&1)
+if [ $? -eq 0 ] && grep -q '^warning: body lower: nodes that no cell and no face has: 5, node 21 at (1, 0, 0)' <<<"$told"; then
+  passed=$((passed + 1))
+else
+  echo "FAILED  warnings of a mesh that is valid: $told"
+  failed=$((failed + 1))
+fi
 expect 2 'is empty' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$work/empty.msh"
 expect 2 'MeshFormat' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$work/noise.msh"
 expect 2 'it has: inner (tetrahedra), outer (tetrahedra)' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$geometry" \

@@ -40,6 +40,10 @@ namespace mortise
   std::string
   nearest_name(const std::string &got, const std::vector<std::string> &allowed);
 
+  /// The lines of @p texts below each other, @p most of them.
+  std::string
+  join_lines(const std::vector<std::string> &texts, std::size_t most);
+
   /// Entries joined as "a, b, c", the first of them if they are many; "(none)"
   /// for an empty list.
   std::string

@@ -209,6 +209,7 @@ namespace mortise
       next = std::max(next, face.boundary_id);
     std::map<std::string, types::boundary_id> chosen_names;
     std::vector<const BoundarySelection *>    owner(faces.size(), nullptr);
+    std::vector<std::string>                  empty;
     for (const BoundarySelection &entry : entries)
       {
         const auto [name, is_new] =
@@ -219,29 +220,30 @@ namespace mortise
           {
             const auto more = find(condition);
             if (more.empty())
-              throw InputError(where + ": Boundaries, " +
-                               in_quotes(entry.text, '\'') +
-                               " chooses no face; there are " + find.list(12) +
-                               " (mortise --boundaries lists them all)");
+              empty.push_back(in_quotes(entry.text, '\''));
             chosen.insert(more.begin(), more.end());
           }
         for (const std::size_t f : chosen)
           {
             if (owner[f] != nullptr && owner[f]->boundary != entry.boundary)
-              throw InputError(where + ": Boundaries, the entries " +
-                               in_quotes(owner[f]->text, '\'') + " and " +
-                               in_quotes(entry.text, '\'') +
-                               " both choose the face at (" +
-                               [&] {
-                                 std::ostringstream place;
-                                 place << mesh.vertices[faces[f].vertices[0]];
-                                 return place.str();
-                               }() +
-                               "); allowed: one boundary for a face");
+              mesh.findings
+                .error("faces that the entries " +
+                         in_quotes(owner[f]->text, '\'') + " and " +
+                         in_quotes(entry.text, '\'') +
+                         " of Boundaries both choose",
+                       "allowed: one boundary for a face")
+                .at("face " + std::to_string(f),
+                    middle(mesh.vertices, faces[f].vertices));
             owner[f]             = &entry;
             faces[f].boundary_id = name->second;
           }
       }
+    if (!empty.empty())
+      mesh.findings.error("Boundaries, " + join_names(empty) +
+                            (empty.size() == 1 ? " chooses" : " choose") +
+                            " no face",
+                          "there are " + find.list(12) +
+                            " (mortise --boundaries lists them all)");
     // names of the file that have lost all faces, or that are given anew
     std::set<types::boundary_id> used;
     for (const CellData<2> &face : faces)
@@ -252,9 +254,8 @@ namespace mortise
                                          std::next(it);
     for (const auto &[name, id] : chosen_names)
       if (!mesh.names.boundaries.emplace(name, id).second)
-        throw InputError(where + ": Boundaries chooses " +
-                         in_quotes(name, '\'') +
-                         ", which the file has as a name of other faces; "
-                         "allowed: another name");
+        mesh.findings.error("Boundaries chooses " + in_quotes(name, '\'') +
+                              ", which the file has as a name of other faces",
+                            "allowed: another name");
   }
 } // namespace mortise

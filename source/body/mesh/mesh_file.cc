@@ -1,9 +1,5 @@
 #include <deal.II/base/mpi.h>
 
-#include <boost/serialization/map.hpp>
-#include <boost/serialization/string.hpp>
-#include <boost/serialization/vector.hpp>
-
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/body/mesh/boundary_selection.h>
@@ -104,21 +100,39 @@ namespace mortise
 
     /// A body that nothing can refer to is not what anybody wants.
     void
-    check_names(const CoarseMesh &mesh,
-                const GmshModel  &model,
-                const FileError  &fail)
+    check_names(const GmshModel &model, CoarseMesh &mesh)
     {
       if (mesh.names.boundaries.empty() && mesh.overlapping_sets.empty())
-        fail(
-          "names no boundary" +
-          std::string(
-            model.surface_names.empty() ?
-              "" :
-              " of this part: none of its faces is in a physical surface of "
-              "the file") +
-          "; allowed: a mesh with physical surfaces, by whose names (or tags) a scene "
+        mesh.findings.error(
+          "the file names no boundary" +
+            std::string(
+              model.surface_names.empty() ?
+                "" :
+                " of this part: none of its faces is in a physical surface of "
+                "the file"),
+          "allowed: a mesh with physical surfaces, by whose names (or tags) a scene "
           "refers to boundaries, as in gmsh's Physical Surface(\"name\") = {...}; or "
           "Boundaries = name: plane z = 0; ..., which names faces by where they are");
+    }
+
+    /// All that can be wrong with a mesh but not with the file as such.
+    void
+    check_mesh(const GmshModel      &model,
+               const MeshParameters &parameters,
+               const std::string    &where,
+               CoarseMesh           &mesh)
+    {
+      check_volumes(mesh);
+      select_boundaries(mesh,
+                        parameters.boundaries,
+                        model.surfaces_of_geometry,
+                        where);
+      check_names(model, mesh);
+      check_coinciding_nodes(mesh);
+      check_edges_and_parts(mesh);
+      // points that help to draw have nodes, too
+      if (!is_geometry_file(parameters.file))
+        check_orphan_nodes(model, mesh);
     }
 
     CoarseMesh
@@ -130,13 +144,7 @@ namespace mortise
       const GmshModel model = read_model(parameters, where);
       CoarseMesh      mesh  = select_part(model, parameters, fail);
       check_size(mesh, fail);
-      check_volumes(mesh, fail);
-      select_boundaries(mesh,
-                        parameters.boundaries,
-                        model.surfaces_of_geometry,
-                        where);
-      check_names(mesh, model, fail);
-      check_coinciding_nodes(mesh, fail);
+      check_mesh(model, parameters, where, mesh);
       sort_cells(mesh);
       return mesh;
     }
@@ -172,73 +180,6 @@ namespace mortise
             }
           result.push_back(outer);
         }
-      return result;
-    }
-
-    /// A coarse mesh on its way to other ranks.
-    struct Package
-    {
-      std::vector<double>      vertices, nodes;
-      std::vector<CellData<3>> cells;
-      std::vector<CellData<2>> faces;
-      MeshNames                names;
-      std::string              remark;
-      unsigned int             nodes_per_cell = 0;
-
-      template <typename Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &vertices &nodes &cells &faces &names.boundaries &names
-          .materials &remark &nodes_per_cell;
-      }
-    };
-
-    std::vector<double>
-    coordinates(const std::vector<Point<3>> &points)
-    {
-      std::vector<double> result;
-      for (const Point<3> &x : points)
-        result.insert(result.end(), x.begin_raw(), x.end_raw());
-      return result;
-    }
-
-    std::vector<Point<3>>
-    points(const std::vector<double> &coordinates)
-    {
-      std::vector<Point<3>> result;
-      for (std::size_t i = 0; i < coordinates.size(); i += 3)
-        result.emplace_back(coordinates[i],
-                            coordinates[i + 1],
-                            coordinates[i + 2]);
-      return result;
-    }
-
-    CoarseMesh
-    broadcast(const CoarseMesh &mesh, const MPI_Comm comm)
-    {
-      Package package;
-      package.vertices = coordinates(mesh.vertices);
-      package.cells    = mesh.cells;
-      package.faces    = mesh.faces.boundary_quads;
-      package.names    = mesh.names;
-      package.remark   = mesh.remark;
-      if (mesh.geometry != nullptr)
-        {
-          package.nodes_per_cell = mesh.geometry->nodes_per_cell;
-          package.nodes          = coordinates(mesh.geometry->nodes);
-        }
-      package = Utilities::MPI::broadcast(comm, package);
-      CoarseMesh result;
-      result.vertices             = points(package.vertices);
-      result.cells                = package.cells;
-      result.faces.boundary_quads = package.faces;
-      result.names                = package.names;
-      result.remark               = package.remark;
-      if (package.nodes_per_cell > 0)
-        result.geometry =
-          std::make_shared<CoarseGeometry>(package.nodes_per_cell,
-                                           points(package.nodes));
       return result;
     }
 
@@ -319,6 +260,15 @@ namespace mortise
         }
     throw_if_any(problem, comm);
     mesh = broadcast(mesh, comm);
+    if (mesh.findings.has_errors())
+      {
+        std::vector<std::string> names;
+        for (const auto &name : mesh.names.boundaries)
+          names.push_back(name.first);
+        throw MeshError(file_problem(where, parameters.file, "has faults:") +
+                          "\n" + join_lines(mesh.findings.lines(), 30),
+                        names);
+      }
     try
       {
         fit_curved_boundaries(mesh, parameters, where);
@@ -356,6 +306,22 @@ namespace mortise
   {
     check_file_parameters(parameters, where);
     return surface_of(read_model(parameters, where), parameters, where);
+  }
+
+  MeshContents
+  read_contents(const MeshParameters &parameters, const std::string &where)
+  {
+    check_file_parameters(parameters, where);
+    const FileError fail = [&](const std::string &what) {
+      throw InputError(file_problem(where, parameters.file, what));
+    };
+    const GmshModel model = read_model(parameters, where);
+    MeshContents    contents;
+    contents.cells   = count_cells(model, parameters, fail);
+    contents.n_nodes = model.nodes.size();
+    contents.mesh    = select_part(model, parameters, fail);
+    check_mesh(model, parameters, where, contents.mesh);
+    return contents;
   }
 
   std::vector<MeshSurface>

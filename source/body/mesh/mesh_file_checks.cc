@@ -2,9 +2,11 @@
 #include <deal.II/base/geometry_info.h>
 
 #include <mortise/base/numbers.h>
+#include <mortise/body/mesh/surface_patches.h>
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -14,25 +16,8 @@ namespace mortise
 {
   using namespace dealii;
 
-  std::string
-  place_name(const Point<3> &x)
-  {
-    std::ostringstream text;
-    text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
-    return text.str();
-  }
-
   namespace
   {
-    Point<3>
-    centre(const CoarseMesh &mesh, const std::size_t cell)
-    {
-      Tensor<1, 3> sum;
-      for (const unsigned int v : mesh.cells[cell].vertices)
-        sum += mesh.vertices[v];
-      return Point<3>(sum / double(mesh.cells[cell].vertices.size()));
-    }
-
     /// Six times the volume of a tetrahedron over the third power of its
     /// longest edge; at a hexahedron's vertex: of the three edges there.
     double
@@ -93,9 +78,15 @@ namespace mortise
                       cell.vertices.end());
     }
 
+    std::string
+    cell_name(const CoarseMesh &mesh, const std::size_t c)
+    {
+      return "cell " + std::to_string(mesh.cell_numbers[c]);
+    }
+
     /// The curved cells are not folded at their nodes.
     void
-    check_curved_cells(const CoarseMesh &mesh, const FileError &fail)
+    check_curved_cells(CoarseMesh &mesh)
     {
       const CoarseGeometry &geometry = *mesh.geometry;
       for (std::size_t c = 0; c < geometry.n_cells(); ++c)
@@ -112,13 +103,15 @@ namespace mortise
               const double det = determinant(geometry.jacobian(c, unit));
               if (i == 0)
                 sign = det;
-              if (!(det * sign > 0.))
-                fail(
-                  "has a second-order cell that its curved sides fold, near " +
-                  place_name(geometry.point(c, unit)) +
-                  "; allowed: a positive Jacobian (in gmsh: "
-                  "Mesh.HighOrderOptimize = 2 or a finer mesh; or first order, with "
-                  "Curved boundaries)");
+              if (det * sign > 0.)
+                continue;
+              mesh.findings
+                .error("second-order cells that their curved sides fold",
+                       "allowed: a positive Jacobian (in gmsh: "
+                       "Mesh.HighOrderOptimize = 2 or a finer mesh; or first "
+                       "order, with Curved boundaries)")
+                .at(cell_name(mesh, c), geometry.point(c, unit));
+              break;
             }
         }
     }
@@ -184,6 +177,22 @@ namespace mortise
         return b.count(id) > 0;
       });
     }
+
+    /// Cells at the vertices of @p pairs.
+    std::map<unsigned int, std::set<std::size_t>>
+    cells_at_ends(
+      const CoarseMesh                                         &mesh,
+      const std::vector<std::pair<unsigned int, unsigned int>> &pairs)
+    {
+      std::map<unsigned int, std::set<std::size_t>> cells;
+      for (const auto &[v, w] : pairs)
+        cells[v], cells[w];
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (const unsigned int v : mesh.cells[c].vertices)
+          if (const auto end = cells.find(v); end != cells.end())
+            end->second.insert(c);
+      return cells;
+    }
   } // namespace
 
   void
@@ -201,7 +210,7 @@ namespace mortise
   }
 
   void
-  check_volumes(CoarseMesh &mesh, const FileError &fail)
+  check_volumes(CoarseMesh &mesh)
   {
     constexpr double flat     = 1e-12;
     std::size_t      negative = 0;
@@ -209,46 +218,59 @@ namespace mortise
       negative += quality_range(mesh, c).second < -flat;
     if (negative == mesh.cells.size())
       mirror(mesh);
+    bool flawed = false;
     for (std::size_t c = 0; c < mesh.cells.size(); ++c)
       {
         const auto range = quality_range(mesh, c);
         if (range.first > flat)
           continue;
-        const bool tetrahedron = mesh.cells[c].vertices.size() == 4;
-        fail(
-          "has a cell " +
-          std::string(range.first < -flat ?
-                        "that is turned inside out (negative volume)" :
-                        "without volume") +
-          ", at " + place_name(centre(mesh, c)) + "; allowed: " +
-          (tetrahedron ? "tetrahedra of positive volume" : "convex hexahedra"));
+        flawed = true;
+        mesh.findings
+          .error(range.first < -flat ?
+                   "cells that are turned inside out (negative volume)" :
+                   "cells without volume",
+                 std::string("allowed: ") +
+                   (mesh.cells[c].vertices.size() == 4 ?
+                      "tetrahedra of positive volume" :
+                      "convex hexahedra"))
+          .at(cell_name(mesh, c),
+              middle(mesh.vertices, mesh.cells[c].vertices));
       }
-    if (mesh.geometry != nullptr)
-      check_curved_cells(mesh, fail);
+    if (mesh.geometry != nullptr && !flawed)
+      check_curved_cells(mesh);
   }
 
   void
-  check_coinciding_nodes(const CoarseMesh &mesh, const FileError &fail)
+  check_coinciding_nodes(CoarseMesh &mesh)
   {
-    const auto box = BoundingBox<3>(mesh.vertices).get_boundary_points();
-    const auto pairs =
-      coinciding_pairs(mesh.vertices, 1e-9 * box.first.distance(box.second));
+    constexpr double same = 1e-9, near = 1e-6;
+    const auto       box  = BoundingBox<3>(mesh.vertices).get_boundary_points();
+    const double     size = box.first.distance(box.second);
+    const auto       pairs = coinciding_pairs(mesh.vertices, near * size);
     if (pairs.empty())
       return;
     const auto surfaces = named_surfaces(mesh);
     const auto volumes  = volumes_at_vertices(mesh);
+    const auto cells    = cells_at_ends(mesh, pairs);
     for (const auto &[v, w] : pairs)
       {
         const bool named = !surfaces[v].empty() && !surfaces[w].empty();
-        if (named &&
-            (disjoint(volumes[v], volumes[w]) || surfaces[v] != surfaces[w]))
+        if ((named && (disjoint(volumes[v], volumes[w]) ||
+                       surfaces[v] != surfaces[w])) ||
+            !disjoint(cells.at(v), cells.at(w))) // an edge
           continue;
-        fail(
-          "has two nodes at " + place_name(mesh.vertices[v]) + " (" +
-          std::to_string(pairs.size()) +
-          " such pairs in this body), which leaves its cells apart there; allowed: one node "
-          "at a place (in gmsh: Coherence, or Coherence Mesh; for a crack or an interface "
-          "within the body: two physical surfaces of different names)");
+        (mesh.vertices[v].distance(mesh.vertices[w]) <= same * size ?
+           mesh.findings.error(
+             "pairs of nodes at one place, which leave the cells apart there",
+             "allowed: one node at a place (in gmsh: Coherence, or Coherence "
+             "Mesh; for a crack or an interface within the body: two physical "
+             "surfaces of different names)") :
+           mesh.findings.warning(
+             "pairs of nodes less than 1e-6 of the body apart that no cell joins",
+             "are they meant to be one?"))
+          .at("nodes " + std::to_string(mesh.vertex_numbers[v]) + " and " +
+                std::to_string(mesh.vertex_numbers[w]),
+              mesh.vertices[v]);
       }
   }
 } // namespace mortise

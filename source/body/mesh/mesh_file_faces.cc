@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/body/mesh/surface_patches.h>
 #include <mortise/body/mesh/vertex_order.h>
 
 #include <algorithm>
@@ -32,6 +33,7 @@ namespace mortise
     {
       FaceKey                   key;
       std::vector<unsigned int> vertices; ///< in deal.II's order
+      std::size_t               cell = 0;
     };
 
     /// The faces of all cells, by ascending key: those between two cells twice.
@@ -40,10 +42,12 @@ namespace mortise
     {
       const bool hexahedra = mesh.cells.front().vertices.size() == 8;
       std::vector<OuterFace> faces;
-      for (const CellData<3> &cell : mesh.cells)
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
         for (unsigned int f = 0; f < (hexahedra ? 6 : 4); ++f)
           {
-            OuterFace face;
+            const CellData<3> &cell = mesh.cells[c];
+            OuterFace          face;
+            face.cell = c;
             for (unsigned int v = 0; v < (hexahedra ? 4 : 3); ++v)
               face.vertices.push_back(
                 cell.vertices[hexahedra ?
@@ -62,7 +66,7 @@ namespace mortise
     std::vector<OuterFace>
     outer_faces(const std::vector<OuterFace> &faces,
                 const GmshModel              &model,
-                const FileError              &fail)
+                CoarseMesh                   &mesh)
     {
       std::vector<OuterFace> boundary;
       for (std::size_t i = 0, next; i < faces.size(); i = next)
@@ -74,10 +78,17 @@ namespace mortise
             boundary.push_back(faces[i]);
           if (next > i + 2)
             {
-              const Point<3> &at = model.nodes[faces[i].key[0]];
-              fail("has " + std::to_string(next - i) +
-                   " cells at one face, near " + place_name(at) +
-                   "; allowed: two, so cells must not overlap");
+              std::set<std::size_t> numbers;
+              for (std::size_t k = i; k < next; ++k)
+                numbers.insert(mesh.cell_numbers[faces[k].cell]);
+              std::vector<std::string> cells;
+              for (const std::size_t number : numbers)
+                cells.push_back(std::to_string(number));
+              mesh.findings
+                .error("faces of more than two cells",
+                       "allowed: two, so cells must not overlap")
+                .at("cells " + join_names(cells),
+                    middle(model.nodes, faces[i].vertices));
             }
         }
       return boundary;
@@ -110,35 +121,49 @@ namespace mortise
       return tags;
     }
 
+    /// Cells of all parts at each node: blocks of the model and places in them.
+    using CellsAtNodes =
+      std::vector<std::vector<std::pair<const GmshElements *, std::size_t>>>;
+
+    CellsAtNodes
+    cells_at_nodes(const GmshModel &model)
+    {
+      CellsAtNodes cells(model.nodes.size());
+      for (const GmshElements &block : model.elements)
+        if (block.dimension == 3)
+          for (std::size_t e = 0; e < block.size(); ++e)
+            for (unsigned int v = 0; v < block.n_vertices; ++v)
+              cells[block.nodes[e * block.reference.size() + v]].emplace_back(
+                &block, e);
+      return cells;
+    }
+
     /// Is the element with @p key a face of a cell of another part, all of whose
     /// vertices are this part's as well?
     bool
     is_face_of_another_part(const FaceKey           &key,
-                            const GmshModel         &model,
+                            const CellsAtNodes      &cells,
                             const std::vector<bool> &of_part)
     {
       const auto n = std::count_if(key.begin(), key.end(), [](const auto v) {
         return v != numbers::invalid_unsigned_int;
       });
-      for (const GmshElements &block : model.elements)
-        if (block.dimension == 3)
-          for (std::size_t e = 0; e < block.size(); ++e)
-            {
-              const auto begin =
-                block.nodes.begin() + e * block.reference.size();
-              const auto end = begin + block.n_vertices;
-              const bool holds =
-                std::all_of(key.begin(), key.begin() + n, [&](const auto v) {
-                  return std::find(begin, end, v) != end;
-                });
-              // three vertices of a tetrahedron are a face, which would be
-              // known if it were this part's
-              if (holds && ((block.n_vertices == 4 && n == 3) ||
-                            std::any_of(begin, end, [&](const auto v) {
-                              return !of_part[v];
-                            })))
-                return true;
-            }
+      for (const auto &[block, e] : cells[key[0]])
+        {
+          const auto begin = block->nodes.begin() + e * block->reference.size();
+          const auto end   = begin + block->n_vertices;
+          const bool holds =
+            std::all_of(key.begin(), key.begin() + n, [&](const auto v) {
+              return std::find(begin, end, v) != end;
+            });
+          // three vertices of a tetrahedron are a face, which would be
+          // known if it were this part's
+          if (holds && ((block->n_vertices == 4 && n == 3) ||
+                        std::any_of(begin, end, [&](const auto v) {
+                          return !of_part[v];
+                        })))
+            return true;
+        }
       return false;
     }
 
@@ -148,8 +173,9 @@ namespace mortise
     void
     check_surface_elements(const std::vector<OuterFace> &faces,
                            const GmshModel              &model,
-                           const FileError              &fail)
+                           CoarseMesh                   &mesh)
     {
+      CellsAtNodes      cells; // when a first one asks
       std::vector<bool> of_part(model.nodes.size(), false);
       for (const OuterFace &face : faces)
         for (const unsigned int v : face.vertices)
@@ -166,21 +192,24 @@ namespace mortise
             std::lower_bound(faces.begin(), faces.end(), key, less);
           const unsigned int *nodes = &block.nodes[e * block.reference.size()];
           if ((found != faces.end() && found->key == key) ||
-              !std::all_of(nodes,
-                           nodes + block.n_vertices,
-                           [&](const auto v) { return of_part[v]; }) ||
-              is_face_of_another_part(key, model, of_part))
+              !std::all_of(nodes, nodes + block.n_vertices, [&](const auto v) {
+                return of_part[v];
+              }))
+            return;
+          if (cells.empty())
+            cells = cells_at_nodes(model);
+          if (is_face_of_another_part(key, cells, of_part))
             return;
           std::vector<std::string> tags;
           for (unsigned int v = 0; v < block.n_vertices; ++v)
             tags.push_back(std::to_string(model.node_tags[nodes[v]]));
-          fail(
-            "has the surface element " + std::to_string(block.tags[e]) +
-            " in the physical surface " +
-            in_quotes(model.surface_names.at(block.groups[0]), '\'') +
-            " between the nodes " + join_names(tags) + ", the first at " +
-            place_name(model.nodes[nodes[0]]) +
-            ", which is a face of no cell; allowed: faces of the body's cells");
+          mesh.findings
+            .error("surface elements that are a face of no cell",
+                   "allowed: faces of the body's cells")
+            .at("element " + std::to_string(block.tags[e]) + " of " +
+                  in_quotes(model.surface_names.at(block.groups[0]), '\'') +
+                  " between the nodes " + join_names(tags) + ", the first",
+                model.nodes[nodes[0]]);
         });
     }
   } // namespace
@@ -219,28 +248,30 @@ namespace mortise
     }
 
     void
-    fail_for_two_groups(const std::set<int>             &groups,
-                        const GmshModel                 &model,
-                        const std::vector<unsigned int> &face,
-                        const FileError                 &fail)
+    add_two_groups(const std::set<int> &groups,
+                   const GmshModel     &model,
+                   const OuterFace     &face,
+                   CoarseMesh          &mesh)
     {
       std::vector<std::string> names;
       for (const int group : groups)
         names.push_back(model.surface_names.at(group));
-      fail("has a face at " + place_name(model.nodes[face[0]]) + " in " +
-           std::to_string(names.size()) + " physical surfaces, " +
-           join_names(names) + "; allowed: one each");
+      mesh.findings
+        .error("faces in several physical surfaces", "allowed: one each")
+        .at("cell " + std::to_string(mesh.cell_numbers[face.cell]) + " in " +
+              join_names(names),
+            middle(model.nodes, face.vertices));
     }
   } // namespace
 
   void
-  name_faces(const GmshModel &model, CoarseMesh &mesh, const FileError &fail)
+  name_faces(const GmshModel &model, CoarseMesh &mesh)
   {
     const std::map<FaceKey, std::set<int>> tags  = surface_tags(model);
     const std::vector<OuterFace>           faces = all_faces(mesh);
-    check_surface_elements(faces, model, fail);
+    check_surface_elements(faces, model, mesh);
     std::vector<std::set<int>> groups_of_faces;
-    for (const OuterFace &face : outer_faces(faces, model, fail))
+    for (const OuterFace &face : outer_faces(faces, model, mesh))
       {
         CellData<2> data(face.vertices.size());
         data.vertices    = face.vertices;
@@ -249,10 +280,10 @@ namespace mortise
         groups_of_faces.push_back(tag == tags.end() ? std::set<int>() :
                                                       tag->second);
         if (groups_of_faces.back().size() > 1 && !model.surfaces_may_overlap)
-          fail_for_two_groups(groups_of_faces.back(),
-                              model,
-                              face.vertices,
-                              fail);
+          {
+            add_two_groups(groups_of_faces.back(), model, face, mesh);
+            groups_of_faces.back() = {*groups_of_faces.back().begin()};
+          }
         mesh.faces.boundary_quads.push_back(data);
       }
     name_disjoint_sets(groups_of_faces, model, mesh);

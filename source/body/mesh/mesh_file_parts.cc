@@ -3,6 +3,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/body/mesh/cell_cutting.h>
+#include <mortise/body/mesh/surface_patches.h>
 #include <mortise/body/mesh/vertex_order.h>
 
 #include <algorithm>
@@ -214,6 +215,7 @@ namespace mortise
             cell.vertices[v] = element[positions.vertices[v]];
           cell.material_id = material;
           mesh.cells.push_back(cell);
+          mesh.cell_numbers.push_back(block.tags[e]);
           if (block.order == 1)
             continue;
           std::vector<Point<3>> nodes(n_nodes);
@@ -225,10 +227,10 @@ namespace mortise
         }
     }
 
-    /// Drop all but one of cells with the same vertices: a file of version 2.2
-    /// repeats a cell for each physical volume that it is in.
+    /// Drop all but one of cells with the same vertices, and tell of those that
+    /// are not repeated because they are in several physical volumes.
     void
-    drop_repeated_cells(CoarseMesh &mesh)
+    drop_repeated_cells(const GmshModel &model, CoarseMesh &mesh)
     {
       std::vector<std::pair<std::vector<unsigned int>, std::size_t>> keys;
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
@@ -241,13 +243,27 @@ namespace mortise
       for (std::size_t k = 0; k < keys.size(); ++k)
         if (k == 0 || keys[k].first != keys[k - 1].first)
           kept.push_back(keys[k].second);
+        else if (const std::size_t c = keys[k].second, d = kept.back();
+                 !model.cells_are_in_one_group ||
+                 mesh.cells[c].material_id == mesh.cells[d].material_id)
+          mesh.findings
+            .warning("cells with the same nodes as another one",
+                     "one of each is kept")
+            .at("cells " + std::to_string(mesh.cell_numbers[d]) + " and " +
+                  std::to_string(mesh.cell_numbers[c]),
+                middle(model.nodes, mesh.cells[c].vertices));
       if (kept.size() == mesh.cells.size())
         return;
       std::sort(kept.begin(), kept.end());
       std::vector<CellData<3>> cells;
+      std::vector<std::size_t> cell_numbers;
       for (const std::size_t c : kept)
-        cells.push_back(mesh.cells[c]);
-      mesh.cells = cells;
+        {
+          cells.push_back(mesh.cells[c]);
+          cell_numbers.push_back(mesh.cell_numbers[c]);
+        }
+      mesh.cells        = cells;
+      mesh.cell_numbers = cell_numbers;
       if (mesh.geometry != nullptr)
         mesh.geometry =
           std::make_shared<CoarseGeometry>(mesh.geometry->selected(kept));
@@ -266,6 +282,7 @@ namespace mortise
           {
             place[node] = mesh.vertices.size();
             mesh.vertices.push_back(model.nodes[node]);
+            mesh.vertex_numbers.push_back(model.node_tags[node]);
           }
       for (CellData<3> &cell : mesh.cells)
         for (unsigned int &v : cell.vertices)
@@ -275,6 +292,14 @@ namespace mortise
           v = place[v];
     }
   } // namespace
+
+  std::string
+  count_cells(const GmshModel      &model,
+              const MeshParameters &parameters,
+              const FileError      &fail)
+  {
+    return count_cells(selected_blocks(model, parameters, fail));
+  }
 
   CoarseMesh
   select_part(const GmshModel      &model,
@@ -298,8 +323,8 @@ namespace mortise
     if (!curved_nodes.empty())
       mesh.geometry = std::make_shared<CoarseGeometry>(
         mesh.cells.front().vertices.size() == 8 ? 27 : 10, curved_nodes);
-    drop_repeated_cells(mesh);
-    name_faces(model, mesh, fail);
+    drop_repeated_cells(model, mesh);
+    name_faces(model, mesh);
     number_vertices(model, mesh);
     return mesh;
   }

@@ -4,9 +4,12 @@
 
 #include <mortise/body/mesh/generators.h>
 #include <mortise/body/mesh/gmsh_model.h>
+#include <mpi.h>
 
+#include <array>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace mortise
 {
@@ -30,14 +33,19 @@ namespace mortise
   GmshModel
   read_inp(const std::string &content, const FileError &fail);
 
-  /// "(x, y, z)".
-  std::string
-  place_name(const dealii::Point<3> &x);
-
   /// The cells of @p parameters.part (all, if that is empty) with their
-  /// vertices, boundary faces, names and curved geometry.
+  /// vertices, boundary faces, names and curved geometry. What is wrong with
+  /// faces and repeated cells is among its findings; @p fail is told why there
+  /// can be no mesh.
   CoarseMesh
   select_part(const GmshModel      &model,
+              const MeshParameters &parameters,
+              const FileError      &fail);
+
+  /// The cells of @p parameters.part as the file has them: "8 pyramids, 30
+  /// wedges".
+  std::string
+  count_cells(const GmshModel      &model,
               const MeshParameters &parameters,
               const FileError      &fail);
 
@@ -45,16 +53,20 @@ namespace mortise
   /// that they are in (0: none), and the names of these. Vertices of cells are
   /// still nodes of @p model.
   void
-  name_faces(const GmshModel &model, CoarseMesh &mesh, const FileError &fail);
+  name_faces(const GmshModel &model, CoarseMesh &mesh);
 
   /// Refuse a body that is smaller or larger than numbers can stand.
   void
   check_size(const CoarseMesh &mesh, const FileError &fail);
 
-  /// Turn the cells of a mesh that is numbered inside out as a whole, and
-  /// refuse cells of negative or no volume otherwise.
+  /// Turn the cells of a mesh that is numbered inside out as a whole, and find
+  /// cells of negative or no volume otherwise.
   void
-  check_volumes(CoarseMesh &mesh, const FileError &fail);
+  check_volumes(CoarseMesh &mesh);
+
+  /// The @p mesh of rank 0, without numbers in the file. Collective.
+  CoarseMesh
+  broadcast(const CoarseMesh &mesh, MPI_Comm comm);
 
   /// Put the cells in the order of a curve that fills space: what is near in
   /// memory is then near in space. Files have them in the order in which they
@@ -62,8 +74,22 @@ namespace mortise
   void
   sort_cells(CoarseMesh &mesh);
 
-  /// Refuse nodes at one place, unless named boundaries say that they are the
-  /// two sides of a surface: of two volumes, or of two names.
+  /// Find nodes at one place, unless named boundaries say that they are the
+  /// two sides of a surface: of two volumes, or of two names; and, as a
+  /// warning, those that nearly are.
   void
-  check_coinciding_nodes(const CoarseMesh &mesh, const FileError &fail);
+  check_coinciding_nodes(CoarseMesh &mesh);
+
+  /// Find what may be meant as it is: edges that are tiny beside the body, and
+  /// parts that are not connected with the rest.
+  void
+  check_edges_and_parts(CoarseMesh &mesh);
+
+  /// Pairs of the @p vertices of a cell (8 of a hexahedron, 4 of a tetrahedron).
+  std::vector<std::array<unsigned int, 2>>
+  cell_edges(const std::vector<unsigned int> &vertices);
+
+  /// Find nodes of @p model that none of its elements has.
+  void
+  check_orphan_nodes(const GmshModel &model, CoarseMesh &mesh);
 } // namespace mortise

@@ -223,6 +223,7 @@ namespace mortise
     mesh.tetrahedra = is_tetrahedral(coarse);
     mesh.geometry   = coarse.geometry;
     mesh.remark     = coarse.remark;
+    mesh.warnings   = coarse.findings.warnings();
     mesh.curved     = coarse.manifold != nullptr || !coarse.shapes.empty() ||
                   coarse.geometry != nullptr;
     std::set<types::boundary_id> balanced;

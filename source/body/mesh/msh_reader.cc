@@ -326,6 +326,7 @@ namespace mortise
                     std::to_string(group) :
                     name->second;
               }
+        model.cells_are_in_one_group = !version_4;
         return std::move(model);
       }
 

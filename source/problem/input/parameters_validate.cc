@@ -314,19 +314,22 @@ namespace mortise
   }
 
   void
-  check_boundary_names(const Parameters                            &parameters,
-                       const std::vector<std::vector<std::string>> &names)
+  check_boundary_names(const Parameters        &parameters,
+                       const NamesOfBoundaries &names)
   {
-    const auto check = [&](const std::string &path,
+    std::vector<std::string> problems;
+    const auto               check = [&](const std::string &path,
                            const unsigned int body,
                            const std::string &name) {
-      const auto &existing = names[body];
+      if (!names[body])
+        return;
+      const auto &existing = *names[body];
       if (std::find(existing.begin(), existing.end(), name) == existing.end())
-        throw InputError(parameters.where(path) + ": body " +
-                         in_quotes(parameters.bodies[body].name) +
-                         " has no boundary " + in_quotes(name) +
-                         did_you_mean(name, existing) +
-                         "; its boundaries are: " + join_names(existing));
+        problems.push_back(parameters.where(path) + ": body " +
+                           in_quotes(parameters.bodies[body].name) +
+                           " has no boundary " + in_quotes(name) +
+                           did_you_mean(name, existing) +
+                           "; its boundaries are: " + join_names(existing));
     };
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
       for (const auto &[name, boundary] : parameters.bodies[b].boundaries)
@@ -346,5 +349,7 @@ namespace mortise
       }
     for (const ResultantQuantity &resultant : parameters.output.resultants)
       check("Output/Resultants", resultant.body, resultant.boundary);
+    if (!problems.empty())
+      throw InputError(join_lines(problems, 30));
   }
 } // namespace mortise

@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/body/mesh/mesh_findings.h>
 #include <mortise/problem/input/formulation.h>
 #include <mortise/problem/input/interface_law.h>
 #include <mortise/problem/scene/scene_spaces.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <set>
 
 namespace mortise
@@ -103,29 +105,67 @@ namespace mortise
     }
   } // namespace
 
+  namespace
+  {
+    /// The mesh of @p body, and the @p names of its boundaries if they are
+    /// known; what is wrong with it becomes one of @p problems.
+    void
+    try_to_create_mesh(const RunContext                        &run,
+                       Body                                    &body,
+                       std::optional<std::vector<std::string>> &names,
+                       std::vector<std::string>                &problems)
+    {
+      try
+        {
+          create_mesh(run, nullptr, body);
+          names.emplace();
+          for (const auto &name : body.mesh.names.boundaries)
+            names->push_back(name.first);
+          if (!body.mesh.remark.empty())
+            run.log.line("body " + body.name + ": " + body.mesh.remark);
+          check_resolution(run, body);
+        }
+      catch (const MeshError &error)
+        {
+          problems.emplace_back(error.what());
+          names = error.boundaries;
+        }
+      catch (const InputError &error)
+        {
+          problems.emplace_back(error.what());
+        }
+    }
+  } // namespace
+
   Bodies
   create_meshes(const RunContext &run)
   {
     auto              stage      = run.log.stage(run.timers, "mesh");
     const Parameters &parameters = run.parameters;
     Bodies            bodies;
-    std::vector<std::vector<std::string>> boundary_names;
-    std::uint64_t                         n_cells = 0;
+    NamesOfBoundaries names(parameters.bodies.size());
+    // of all bodies: who repairs meshes wants to know what is left to do
+    std::vector<std::string> problems;
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
       {
-        const BodyParameters &body = parameters.bodies[b];
-        bodies.push_back(
-          std::make_unique<Body>(body.name, b, materials(parameters)[b]));
-        create_mesh(run, nullptr, *bodies[b]);
-        if (!bodies[b]->mesh.remark.empty())
-          run.log.line("body " + body.name + ": " + bodies[b]->mesh.remark);
-        check_resolution(run, *bodies[b]);
-        n_cells += bodies[b]->triangulation().n_global_active_cells();
-        boundary_names.emplace_back();
-        for (const auto &name : bodies[b]->mesh.names.boundaries)
-          boundary_names.back().push_back(name.first);
+        bodies.push_back(std::make_unique<Body>(parameters.bodies[b].name,
+                                                b,
+                                                materials(parameters)[b]));
+        try_to_create_mesh(run, *bodies[b], names[b], problems);
       }
-    check_boundary_names(parameters, boundary_names);
+    try
+      {
+        check_boundary_names(parameters, names);
+      }
+    catch (const InputError &error)
+      {
+        problems.emplace_back(error.what());
+      }
+    if (!problems.empty())
+      throw InputError(join_lines(problems, 30));
+    std::uint64_t n_cells = 0;
+    for (const auto &body : bodies)
+      n_cells += body->triangulation().n_global_active_cells();
     stage.details(std::to_string(bodies.size()) +
                   (bodies.size() == 1 ? " body, " : " bodies, ") +
                   std::to_string(n_cells) + " cells");

@@ -34,8 +34,8 @@ namespace mortise
 
   /// Give the chosen faces of @p mesh ids and names of their own; they leave the
   /// boundaries that the file has put them in. @p cad: see surface_patches().
-  /// Throws InputError for an entry that chooses nothing, or what another one
-  /// has.
+  /// Entries that choose nothing, or what another one has, are findings of
+  /// @p mesh. Throws InputError (starting with @p where) for what is no entry.
   void
   select_boundaries(CoarseMesh        &mesh,
                     const std::string &text,

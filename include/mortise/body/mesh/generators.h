@@ -7,6 +7,7 @@
 
 #include <mortise/body/mesh/coarse_geometry.h>
 #include <mortise/body/mesh/lattice_coarsening.h>
+#include <mortise/body/mesh/mesh_findings.h>
 #include <mortise/body/mesh/mesh_source.h>
 #include <mortise/body/mesh/surfaces.h>
 
@@ -42,6 +43,11 @@ namespace mortise
     std::map<std::string, std::vector<std::size_t>> overlapping_sets;
 
     std::string remark; ///< what became of the cells of a file; empty: nothing
+
+    /// Of a file, as long as it is read: numbers that cells and vertices have
+    /// there (0: none), and what is wrong.
+    std::vector<std::size_t> cell_numbers, vertex_numbers;
+    MeshFindings             findings;
   };
 
   /// The body described by @p parameters (any source but file), vertices already moved.

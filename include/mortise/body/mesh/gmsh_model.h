@@ -61,6 +61,10 @@ namespace mortise
     /// A face may be in several groups of surfaces (.inp).
     bool surfaces_may_overlap = false;
 
+    /// A cell in several groups of volumes is repeated for each of them (.msh
+    /// of version 2.2).
+    bool cells_are_in_one_group = false;
+
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)

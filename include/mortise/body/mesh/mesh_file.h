@@ -53,7 +53,20 @@ namespace mortise
   MeshSurface
   read_surface(const MeshParameters &parameters, const std::string &where);
 
-  /// The same of each part of the file, in the order of their numbers.
+  /// A mesh as a file has it, and all that is wrong with it.
+  struct MeshContents
+  {
+    CoarseMesh  mesh;        ///< wedges and the like are cut into tetrahedra
+    std::string cells;       ///< before that: "8 pyramids, 30 wedges"
+    std::size_t n_nodes = 0; ///< of the file
+  };
+
+  /// What read_mesh_file() would read, with the findings for which it would
+  /// refuse it. On one rank; throws InputError where there is no mesh at all.
+  MeshContents
+  read_contents(const MeshParameters &parameters, const std::string &where);
+
+  /// read_surface() of each part of the file, in the order of their numbers.
   std::vector<MeshSurface>
   read_parts(const MeshParameters &parameters, const std::string &where);
 } // namespace mortise

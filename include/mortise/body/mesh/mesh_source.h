@@ -117,6 +117,9 @@ namespace mortise
     /// What became of the cells of a file, for the log; empty: nothing.
     std::string remark;
 
+    /// What is worth knowing of the mesh of a file; it has no errors.
+    std::vector<std::string> warnings;
+
     /// Of hexahedra from generators: the vertices of the coarse mesh.
     std::vector<LatticeBlock> lattice;
   };

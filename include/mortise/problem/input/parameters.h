@@ -239,10 +239,15 @@ namespace mortise
   void
   check_output_directory(const Parameters &parameters, MPI_Comm comm);
 
+  /// Of each body, where they are known.
+  using NamesOfBoundaries =
+    std::vector<std::optional<std::vector<std::string>>>;
+
   /// Do the boundaries that the scene names exist? @p names[b] are those of the mesh of body b.
   /// Checks the Boundary subsections, both sides of the interfaces, and the
-  /// resultants. Throws InputError with the names that exist.
+  /// resultants. Throws InputError with all that do not, and the names that
+  /// exist.
   void
-  check_boundary_names(const Parameters                            &parameters,
-                       const std::vector<std::vector<std::string>> &names);
+  check_boundary_names(const Parameters        &parameters,
+                       const NamesOfBoundaries &names);
 } // namespace mortise
