@@ -5,6 +5,7 @@
 #include <mortise/problem/boundary_list.h>
 #include <mortise/problem/input/examples.h>
 #include <mortise/problem/input/parameter_schema.h>
+#include <mortise/problem/mesh_info.h>
 #include <mortise/problem/pair_list.h>
 #include <mortise/problem/run_command.h>
 #include <mortise/problem/simulation.h>
@@ -76,12 +77,15 @@ namespace mortise
           if (prints)
             std::cout << parameter_reference_as_json();
           break;
+        case Action::info:
         case Action::boundaries:
         case Action::pairs:
           {
             const std::string text =
               (command.action == Action::pairs ?
                  list_pairs :
+               command.action == Action::info ?
+                 mesh_info :
                  list_boundaries)(command.file, command.settings, comm);
             if (prints)
               std::cout << text;

@@ -16,6 +16,7 @@ namespace mortise
                                                    "--report",
                                                    "--validate",
                                                    "--parameters",
+                                                   "--info",
                                                    "--boundaries",
                                                    "--pairs",
                                                    "--example",
@@ -54,7 +55,7 @@ namespace mortise
         fail(
           "got " + option +
           " and another option that asks for something else; allowed is one of "
-          "--validate, --parameters, --report, --boundaries, --pairs, --example, --help, --version");
+          "--validate, --parameters, --report, --info, --boundaries, --pairs, --example, --help, --version");
       line.action = action;
     }
 
@@ -119,6 +120,8 @@ namespace mortise
              "; allowed: " + join_names(option_names));
       else if (option == "--validate")
         set_action(line, Action::validate, option);
+      else if (option == "--info")
+        set_action(line, Action::info, option);
       else if (option == "--boundaries")
         set_action(line, Action::boundaries, option);
       else if (option == "--pairs")
@@ -158,7 +161,8 @@ namespace mortise
     if (line.action == Action::report && !line.file.empty())
       fail("got --report and the parameter file " + in_quotes(line.file) +
            "; allowed is one of them");
-    if ((line.action == Action::boundaries || line.action == Action::pairs) &&
+    if ((line.action == Action::info || line.action == Action::boundaries ||
+         line.action == Action::pairs) &&
         line.file.empty())
       fail(
         "a mesh or CAD file is needed, as in: mortise --boundaries part.step");
@@ -178,6 +182,8 @@ namespace mortise
            "  mortise --restart DIR [OPTION]...          go on from the last checkpoint in DIR\n"
            "  mortise --report DIR                       a page of the results: DIR/report.html\n"
            "  mortise --parameters[=json]                every parameter: default, unit, meaning\n"
+           "  mortise --info FILE                        sizes, names, quality and faults "
+           "of a mesh or CAD file\n"
            "  mortise --boundaries FILE                  list the faces of a mesh or "
            "CAD file, with a picture\n"
            "  mortise --pairs FILE                       list faces of its bodies that "

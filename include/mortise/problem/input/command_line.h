@@ -17,6 +17,7 @@ namespace mortise
       print_parameters, ///< every parameter with default, unit and meaning
       print_parameters_as_json, ///< the same for programs
       report,                   ///< a page of the results in a directory
+      info,                     ///< what is in a mesh or CAD file
       boundaries,               ///< list the faces of a mesh or CAD file
       pairs,   ///< list faces of its bodies that lie opposite each other
       example, ///< list the scenes that come with the program, or write one
