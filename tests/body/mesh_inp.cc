@@ -2,76 +2,20 @@
 // of nodes, sets and surfaces as names of parts and boundaries, and what is
 // told of files that are wrong.
 
-#include <deal.II/base/quadrature_lib.h>
-
-#include <mortise/body/elements/simplex_quadrature.h>
 #include <verdict.h>
 
 #include <cmath>
 
 #include "gmsh_meshes.h"
+#include "three_shapes.h"
 
 using namespace dealii;
 using namespace gmsh_test;
+using namespace three_shapes;
 using mortise::CoarseMesh;
 
 namespace
 {
-  /// x + bend(x), of degree 2 in all.
-  Point<3>
-  bent(const Point<3> &x)
-  {
-    return {x[0] + 0.2 * x[1] * x[2],
-            x[1] + 0.3 * x[2] * x[2],
-            x[2] + 0.2 * x[0] * x[0] - 0.1 * x[0] * x[1]};
-  }
-
-  double
-  bent_determinant(const Point<3> &x)
-  {
-    Tensor<2, 3> J;
-    J[0] = Point<3>(1., 0.2 * x[2], 0.2 * x[1]);
-    J[1] = Point<3>(0., 1., 0.6 * x[2]);
-    J[2] = Point<3>(0.4 * x[0] - 0.1 * x[1], -0.1 * x[0], 1.);
-    return determinant(J);
-  }
-
-  /// A cube, a wedge on its right side, a tetrahedron on top of the wedge, with
-  /// middles of edges, as Abaqus orders them.
-  struct Deck
-  {
-    std::vector<Point<3>>                  vertices = {{0, 0, 0},
-                                                       {1, 0, 0},
-                                                       {1, 1, 0},
-                                                       {0, 1, 0},
-                                                       {0, 0, 1},
-                                                       {1, 0, 1},
-                                                       {1, 1, 1},
-                                                       {0, 1, 1},
-                                                       {2, 0, 0},
-                                                       {2, 0, 1},
-                                                       {1, 0, 2}};
-    std::vector<std::vector<unsigned int>> cells    = {{1, 2, 3, 4, 5, 6, 7, 8},
-                                                       {2, 9, 3, 6, 10, 7},
-                                                       {6, 10, 7, 11}};
-  };
-
-  const std::vector<std::vector<std::array<unsigned int, 2>>> edges = {
-    {{0, 1},
-     {1, 2},
-     {2, 3},
-     {3, 0},
-     {4, 5},
-     {5, 6},
-     {6, 7},
-     {7, 4},
-     {0, 4},
-     {1, 5},
-     {2, 6},
-     {3, 7}},
-    {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
-    {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-
   std::string
   deck_text(const bool quadratic)
   {
@@ -118,51 +62,6 @@ namespace
            "*MATERIAL, NAME=steel\n*ELASTIC\n210000, 0.3\n*STEP\n*END STEP\n";
   }
 
-  double
-  volume(const CoarseMesh &mesh)
-  {
-    const Quadrature<3> rule = mortise::simplex_quadrature<3>(8);
-    double              sum  = 0.;
-    for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-      for (unsigned int q = 0; q < rule.size(); ++q)
-        {
-          const auto  &v = mesh.cells[c].vertices;
-          const auto  &x = mesh.vertices;
-          Tensor<2, 3> J;
-          for (unsigned int d = 0; d < 3; ++d)
-            J[d] = x[v[d + 1]] - x[v[0]];
-          sum += rule.weight(q) *
-                 determinant(mesh.geometry ?
-                               mesh.geometry->jacobian(c, rule.point(q)) :
-                               J);
-        }
-    return sum;
-  }
-
-  /// Of the bent cube, wedge and tetrahedron.
-  double
-  exact_volume()
-  {
-    double          sum = 0.;
-    const QGauss<3> cube(3);
-    for (unsigned int q = 0; q < cube.size(); ++q)
-      sum += cube.weight(q) * bent_determinant(cube.point(q));
-    const QGauss<3> collapsed(4);
-    for (unsigned int q = 0; q < collapsed.size(); ++q)
-      {
-        // (s, t (1 - s)) in the triangle of the wedge
-        const Point<3> &y = collapsed.point(q);
-        sum += collapsed.weight(q) * (1. - y[0]) *
-               bent_determinant({1. + y[0], y[1] * (1. - y[0]), y[2]});
-      }
-    const Quadrature<3> tetrahedron = mortise::simplex_quadrature<3>(8);
-    for (unsigned int q = 0; q < tetrahedron.size(); ++q)
-      sum += tetrahedron.weight(q) *
-             bent_determinant(Point<3>(1., 0., 1.) +
-                              Tensor<1, 3>(tetrahedron.point(q)));
-    return sum;
-  }
-
   unsigned int
   n_faces(const CoarseMesh &mesh, const std::string &name)
   {
@@ -191,11 +90,12 @@ namespace
       file_parameters(write_file("deck.inp", deck_text(quadratic)));
     q.boundaries          = "edge: named Under";
     const CoarseMesh mesh = mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
-    verdict(
-      mesh.cells.size() == 6 + 3 + 1 &&
-        (!quadratic || std::fabs(volume(mesh) / exact_volume() - 1.) < 1e-13),
-      what + ": all shapes" + (quadratic ? ", volume to 1e-13" : ""),
-      std::to_string(volume(mesh)) + " " + std::to_string(exact_volume()));
+    verdict(mesh.cells.size() == 6 + 3 + 1 &&
+              (!quadratic ||
+               std::fabs(volume_of(mesh) / exact_volume() - 1.) < 1e-13),
+            what + ": all shapes" + (quadratic ? ", volume to 1e-13" : ""),
+            std::to_string(volume_of(mesh)) + " " +
+              std::to_string(exact_volume()));
     verdict(n_faces(mesh, "Load") == 1 && n_faces(mesh, "Front") == 5 &&
               n_faces(mesh, "edge") == 3 && n_faces(mesh, "Left") == 2,
             what + ": surfaces by sides of elements and by sets of nodes",

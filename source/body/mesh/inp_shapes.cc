@@ -16,6 +16,11 @@ namespace mortise
       {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
       {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
       {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
+    static const InpShape pyramid = {
+      "Pyramid",
+      {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}},
+      {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
+      {{0, 1, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}}};
     static const InpShape wedge = {
       "Prism",
       {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}},
@@ -48,7 +53,10 @@ namespace mortise
                                          {1, 5, 6, 2},
                                          {2, 6, 7, 3},
                                          {3, 7, 4, 0}}};
-    return n_vertices == 4 ? tetrahedron : n_vertices == 6 ? wedge : hexahedron;
+    return n_vertices == 4 ? tetrahedron :
+           n_vertices == 5 ? pyramid :
+           n_vertices == 6 ? wedge :
+                             hexahedron;
   }
 
   InpType

@@ -1,4 +1,4 @@
-// The cells of Abaqus and CalculiX.
+// The cells of Abaqus, CalculiX and VTK, which have the same order of nodes.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -19,7 +19,7 @@ namespace mortise
     std::vector<std::vector<unsigned int>>   faces;
   };
 
-  /// @p n_vertices: 4, 6 or 8.
+  /// @p n_vertices: 4, 5, 6 or 8.
   const InpShape &
   inp_shape(unsigned int n_vertices);
 

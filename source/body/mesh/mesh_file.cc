@@ -44,6 +44,12 @@ namespace mortise
       return std::filesystem::path(file_name).extension() == ".inp";
     }
 
+    bool
+    is_vtu_file(const std::string &file_name)
+    {
+      return std::filesystem::path(file_name).extension() == ".vtu";
+    }
+
     /// OpenCASCADE takes anything, and says so on the terminal.
     void
     check_cad_content(const std::string &file,
@@ -81,6 +87,8 @@ namespace mortise
         return read_msh(content, fail);
       if (is_inp_file(file))
         return read_inp(content, fail);
+      if (is_vtu_file(file))
+        return read_vtu(content, fail);
       if (is_geometry_file(file))
         check_cad_content(file, content, fail);
       try
@@ -218,16 +226,16 @@ namespace mortise
     if (file.empty())
       throw InputError(
         where +
-        ": Source = file needs File = the name of a mesh (.msh, .inp, .unv, .bdf, .nas, .vtk) or of a "
+        ": Source = file needs File = the name of a mesh (.msh, .inp, .vtu, .unv, .bdf, .nas, .vtk) or of a "
         "geometry (.geo, .step, .stp, .brep)");
-    const bool is_meshed =
-      is_mesh_file(file) || is_inp_file(file) || is_foreign_mesh_file(file);
+    const bool is_meshed = is_mesh_file(file) || is_inp_file(file) ||
+                           is_vtu_file(file) || is_foreign_mesh_file(file);
     if (!is_meshed && !is_geometry_file(file))
       throw InputError(file_problem(
         where,
         file,
         "has a name of no known format; allowed: .msh, .geo, .step, .stp, .brep, "
-        ".inp, .unv, .bdf, .nas, .vtk"));
+        ".inp, .vtu, .unv, .bdf, .nas, .vtk"));
     parse_boundaries(parameters.boundaries, where);
     const double size = parameters.mesh_size;
     if (!(size >= 0.) || !std::isfinite(size) || (size > 0. && is_meshed))

@@ -33,6 +33,14 @@ namespace mortise
   GmshModel
   read_inp(const std::string &content, const FileError &fail);
 
+  /// The mesh in the @p content of an XML file of VTK (.vtu): an
+  /// UnstructuredGrid of any number of pieces, as text, in base 64 or raw,
+  /// compressed by zlib or not. Groups of volumes and surfaces are the ids that
+  /// an array of integers gives to cells of dimension 3 and 2. Cells and points
+  /// have the numbers of ParaView, from 0 on.
+  GmshModel
+  read_vtu(const std::string &content, const FileError &fail);
+
   /// The cells of @p parameters.part (all, if that is empty) with their
   /// vertices, boundary faces, names and curved geometry. What is wrong with
   /// faces and repeated cells is among its findings; @p fail is told why there

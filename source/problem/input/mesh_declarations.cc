@@ -11,7 +11,7 @@ namespace mortise
         "File",
         mesh.file,
         "For the source file: a mesh of gmsh (.msh, version 2.2 or 4.1, first or second "
-        "order), one of Abaqus or CalculiX (.inp) or of another program that gmsh reads (.unv, .bdf, .nas, .vtk), or a geometry that gmsh "
+        "order), one of Abaqus or CalculiX (.inp), of VTK (.vtu) or of another program that gmsh reads (.unv, .bdf, .nas, .vtk), or a geometry that gmsh "
         "meshes (.geo, .step, .brep). Looked for in the working directory, then beside the parameter file.",
         {"name of a file"});
       section.add(

@@ -32,9 +32,9 @@ class Mesh(Section):
     """Local refinement after Refinements: cells that reach into a ball are cut the given number of times [length], after Rotate
     and Translate. Allowed: "x, y, z, radius, times; ..."."""
     file: str = parameter("File", '', "text")
-    """For the source file: a mesh of gmsh (.msh, version 2.2 or 4.1, first or second order), one of Abaqus or CalculiX (.inp) or
-    of another program that gmsh reads (.unv, .bdf, .nas, .vtk), or a geometry that gmsh meshes (.geo, .step, .brep). Looked for
-    in the working directory, then beside the parameter file. Allowed: name of a file."""
+    """For the source file: a mesh of gmsh (.msh, version 2.2 or 4.1, first or second order), one of Abaqus or CalculiX (.inp), of
+    VTK (.vtu) or of another program that gmsh reads (.unv, .bdf, .nas, .vtk), or a geometry that gmsh meshes (.geo, .step,
+    .brep). Looked for in the working directory, then beside the parameter file. Allowed: name of a file."""
     part: str = parameter("Part", '', "text")
     """The physical volume of the file that is this body. Empty: all. Allowed: name (or tag) of a physical volume."""
     mesh_size: float = parameter("Mesh size", 0.0, "real", "length")

@@ -45,7 +45,7 @@ namespace mortise
     std::string remark; ///< what became of the cells of a file; empty: nothing
 
     /// Of a file, as long as it is read: numbers that cells and vertices have
-    /// there (0: none), and what is wrong.
+    /// there, and what is wrong.
     std::vector<std::size_t> cell_numbers, vertex_numbers;
     MeshFindings             findings;
   };
