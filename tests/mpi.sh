@@ -60,7 +60,7 @@ wait "$filter" "$copy" || true
 why="a crash: please report it"
 [ "$code" = 137 ] && why="not by the program itself; a machine that ran out of memory does so"
 case $code in
-  129 | 130 | 143 | 152) ;;
+  129 | 130 | 138 | 143 | 152) ;;
   *) [ "$code" -le 128 ] || echo "run: a rank was ended by signal $((code - 128)) (SIG$(kill -l "$code")), $why" >&2 ;;
 esac
 exit "$code"

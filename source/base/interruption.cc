@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <climits>
 #include <csignal>
 #include <cstdlib>
@@ -50,8 +51,10 @@ namespace mortise::interruption
       const char *name;
     };
     // SIGXCPU: the limit of time of a batch system
-    constexpr std::array<Signal, 4> signals = {{{SIGINT, "SIGINT"},
+    // SIGUSR1: what mpirun hands on to the ranks without ending them itself
+    constexpr std::array<Signal, 5> signals = {{{SIGINT, "SIGINT"},
                                                 {SIGTERM, "SIGTERM"},
+                                                {SIGUSR1, "SIGUSR1"},
                                                 {SIGHUP, "SIGHUP"},
                                                 {SIGXCPU, "SIGXCPU"}}};
 
@@ -85,7 +88,10 @@ namespace mortise::interruption
     /// Names, each once, the one that was written last at the end.
     std::vector<std::string> complete_files;
 
-    std::atomic<bool>               speaks = true;
+    std::atomic<bool> speaks = true, is_patient = false;
+    /// Somebody sees at once that the signal has come: on a terminal.
+    std::atomic<bool>               tells = false;
+    std::atomic<int>                kept  = 0;
     std::atomic<int>                alone_spoken{0};
     std::atomic<std::atomic<int> *> spoken = &alone_spoken;
     static_assert(std::atomic<int>::is_always_lock_free &&
@@ -101,10 +107,35 @@ namespace mortise::interruption
         line[length++] = *text++;
     }
 
+    /// Is @p number the first one of a patient run? Only what POSIX allows in a
+    /// handler.
+    bool
+    keep(const int number)
+    {
+      int none = 0;
+      if (!is_patient || number == SIGHUP || number == SIGXCPU ||
+          !kept.compare_exchange_strong(none, number))
+        return false;
+      constexpr char told[] =
+        "\nthe run stops after this step; a second signal ends it at once\n";
+      if (tells)
+        {
+          [[maybe_unused]] const ssize_t ignored =
+            write(STDERR_FILENO, told, sizeof told - 1);
+        }
+      return true;
+    }
+
     // Only what POSIX allows in a handler.
     void
     end(const int number)
     {
+      const int error = errno;
+      if (keep(number))
+        {
+          errno = error; // of who was interrupted
+          return;
+        }
       if (*unfinished.get() != '\0')
         unlink(unfinished.get());
       if (speaks && speak_first())
@@ -186,8 +217,10 @@ namespace mortise::interruption
       if (const char *rank = std::getenv(name))
         speaks = std::strcmp(rank, "0") == 0;
     complete.set(what_is_complete());
+    tells                   = speaks && isatty(STDERR_FILENO) != 0;
     struct sigaction action = {};
     action.sa_handler       = end;
+    action.sa_flags         = SA_RESTART; // a patient run goes on
     sigfillset(&action.sa_mask);
     for (const Signal &signal : signals)
       {
@@ -215,6 +248,27 @@ namespace mortise::interruption
   speak_first()
   {
     return spoken.load()->exchange(1) == 0;
+  }
+
+  void
+  be_patient(const bool patient)
+  {
+    is_patient = patient;
+  }
+
+  int
+  agreed_signal(const MPI_Comm comm)
+  {
+    return dealii::Utilities::MPI::max(kept.load(), comm);
+  }
+
+  std::string
+  name_of_signal(const int number)
+  {
+    for (const Signal &signal : signals)
+      if (signal.number == number)
+        return signal.name;
+    return "a signal";
   }
 
   void

@@ -12,6 +12,12 @@
 
 namespace mortise
 {
+  namespace
+  {
+    /// To the start of the line, which becomes empty.
+    constexpr char clear_line[] = "\r\033[K";
+  } // namespace
+
   RunLog::Stage::Stage(RunLog &log, Timers &timers, const std::string &name)
     : log(log)
     , scope(std::in_place, timers, name)
@@ -36,10 +42,17 @@ namespace mortise
     scope.reset();
   }
 
-  RunLog::RunLog(std::ostream &out, const MPI_Comm comm)
+  RunLog::RunLog(std::ostream &out, const MPI_Comm comm, const bool terminal)
     : out(out)
     , prints(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+    , terminal(terminal && prints)
   {}
+
+  RunLog::~RunLog()
+  {
+    if (!bar.empty())
+      out << clear_line << std::flush;
+  }
 
   RunLog::Stage
   RunLog::stage(Timers &timers, const std::string &name)
@@ -66,8 +79,32 @@ namespace mortise
   void
   RunLog::line(const std::string &text)
   {
-    if (prints)
-      out << text << std::endl; // at once: somebody watches
+    if (!prints)
+      return;
+    if (!bar.empty())
+      out << clear_line;
+    out << text << '\n' << bar << std::flush; // at once: somebody watches
+  }
+
+  void
+  RunLog::progress(const double fraction,
+                   const double seconds,
+                   const double left)
+  {
+    const std::string done =
+      number(100. * fraction) + " % done in " + number(seconds) + " s" +
+      (fraction >= 1. ? "" : ", about " + number(left) + " s left");
+    if (!terminal)
+      return line("  " + done);
+    constexpr int     width = 30;
+    const std::size_t n =
+      std::clamp(static_cast<int>(width * fraction), 0, width);
+    if (!bar.empty())
+      out << clear_line;
+    bar = fraction >= 1. ? "" :
+                           "  [" + std::string(n, '#') +
+                             std::string(width - n, '.') + "] " + done;
+    out << bar << std::flush;
   }
 
   void

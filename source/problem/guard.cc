@@ -64,6 +64,10 @@ namespace mortise
           return {ExitCode::not_converged,
                   std::string("not converged: ") + e.what()};
         }
+      catch (const interruption::Interrupted &e)
+        {
+          return {static_cast<ExitCode>(128 + e.signal), e.what()};
+        }
       catch (const std::bad_alloc &)
         {
           return out_of_memory();

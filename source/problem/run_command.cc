@@ -9,7 +9,9 @@
 #include <mortise/problem/pair_list.h>
 #include <mortise/problem/run_command.h>
 #include <mortise/problem/simulation.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <iostream>
 #include <optional>
 
@@ -17,6 +19,18 @@ namespace mortise
 {
   namespace
   {
+    /// May lines be written again? mpirun gives its ranks a terminal wherever
+    /// it writes itself.
+    bool
+    has_terminal(const MPI_Comm comm)
+    {
+      const char *const kind = std::getenv("TERM");
+      return dealii::Utilities::MPI::n_mpi_processes(comm) == 1 &&
+             std::getenv("OMPI_COMM_WORLD_RANK") == nullptr &&
+             isatty(STDOUT_FILENO) != 0 && kind != nullptr &&
+             std::string(kind) != "dumb";
+    }
+
     void
     run_scene(const CommandLine &command, const MPI_Comm comm)
     {
@@ -29,7 +43,7 @@ namespace mortise
           read_parameters(command.file, command.settings, comm);
       validate(parameters);
 
-      RunLog log(std::cout, comm);
+      RunLog log(std::cout, comm, has_terminal(comm));
       if (!parameters.title.empty())
         log.line(parameters.title);
       Simulation simulation(parameters, log, comm);

@@ -92,9 +92,6 @@ namespace mortise
     if (clock.seconds == 0.)
       clock = {fraction,
                seconds}; // the first step made the preconditioner, too
-    run.log.line(
-      "  " + RunLog::number(100. * fraction) + " % done in " +
-      RunLog::number(seconds) + " s" +
-      (steps.finished() ? "" : ", about " + RunLog::number(left) + " s left"));
+    run.log.progress(fraction, seconds, left);
   }
 } // namespace mortise

@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
+#include <mortise/base/quotes.h>
 #include <mortise/problem/contact/contact_start.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/results/points_outside.h>
@@ -170,7 +171,7 @@ namespace mortise
       discretise();
     if (!steps.finished() && !restart.empty())
       restore(restart);
-    while (!steps.finished() && report.converged && output.unwritten().empty())
+    while (!steps.finished() && report.converged && goes_on())
       step(writes);
     summary.status = !report.converged ? "not converged" :
                      !steps.finished() ? "stopped" :
@@ -178,6 +179,24 @@ namespace mortise
     if (!anything_acts(context.parameters) && !summary.steps.empty() &&
         is_zero(summary.steps.back()))
       context.log.warning(nothing_acts);
+  }
+
+  bool
+  Simulation::goes_on() const
+  {
+    return output.unwritten().empty() && stop_signal == 0;
+  }
+
+  std::string
+  Simulation::where() const
+  {
+    return adaptivity && !parameters.steps.given() ?
+             "cycle " + std::to_string(summary.steps.back().cycle) :
+             "step " + std::to_string(summary.steps.back().step) +
+               (adaptivity ?
+                  ", cycle " + std::to_string(summary.steps.back().cycle) :
+                  "") +
+               ", t = " + RunLog::number(state.time);
   }
 
   void
@@ -193,6 +212,7 @@ namespace mortise
     try
       {
         march(true);
+        interruption::be_patient(false);
       }
     catch (const InputError &)
       {
@@ -220,6 +240,14 @@ namespace mortise
                       "The run was stopped at t = " +
                         RunLog::number(state.time) + "; ") +
         interruption::what_is_complete());
+    if (stop_signal != 0 && summary.status == "stopped")
+      throw interruption::Interrupted(
+        stop_signal,
+        "interrupted by " + interruption::name_of_signal(stop_signal) +
+          " after " + where() +
+          ": its results and a checkpoint are written; to go on: mortise "
+          "--restart " +
+          file_in_quotes(parameters.output.directory));
     const std::string results =
       summary.steps.empty() ? ". No equilibrium was reached" :
       adaptivity            ? ". The results of cycle " +
@@ -250,7 +278,7 @@ namespace mortise
     // a later cycle may not come to its end, and has the same file
     const bool each_cycle = adaptivity && !parameters.steps.given();
     if (!report.converged || each_cycle ||
-        (is_last_cycle() && steps.output_due()))
+        (is_last_cycle() && steps.output_due()) || stop_signal != 0)
       output.write_fields(steps,
                           state.time,
                           evaluation,
@@ -259,10 +287,11 @@ namespace mortise
     if (report.converged && !steps.finished())
       output.write_running(summary);
     const unsigned int every = parameters.output.checkpoint_every;
-    if (every == 0 || !report.converged ||
-        ((adaptivity ? adaptivity->n_cycles() : steps.n_done()) % every != 0 &&
-         !steps.finished() &&
-         output.unwritten().empty())) // else it goes no further
+    const bool         due =
+      every != 0 &&
+      ((adaptivity ? adaptivity->n_cycles() : steps.n_done()) % every == 0 ||
+       steps.finished() || !output.unwritten().empty()); // it ends here
+    if (!report.converged || !(due || stop_signal != 0))
       return;
     const RunCheckpoint checkpoint{
       std::filesystem::absolute(parameters.file).string(),

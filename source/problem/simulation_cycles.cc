@@ -101,7 +101,7 @@ namespace mortise
   Simulation::cycle(const bool writes)
   {
     announce_step();
-    while (!is_last_cycle() && output.unwritten().empty())
+    while (!is_last_cycle() && goes_on())
       {
         context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
         discretise();
@@ -132,16 +132,14 @@ namespace mortise
       adaptivity->begin_step(bodies);
     cycle(writes);
     while (parameters.steps.given() && report.converged &&
-           adaptivity->reached() && !steps.finished() &&
-           output.unwritten().empty())
+           adaptivity->reached() && !steps.finished() && goes_on())
       {
         adaptivity->begin_step(bodies);
         cycle(writes);
       }
-    summary.status = !report.converged ? "not converged" :
-                     !output.unwritten().empty() && !steps.finished() ?
-                                         "stopped" :
-                     adaptivity->reached() ? "done" :
-                                             "target not reached";
+    summary.status = !report.converged               ? "not converged" :
+                     !goes_on() && !steps.finished() ? "stopped" :
+                     adaptivity->reached()           ? "done" :
+                                                       "target not reached";
   }
 } // namespace mortise

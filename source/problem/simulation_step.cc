@@ -1,4 +1,5 @@
 // One step of Simulation: solved, evaluated and written.
+#include <mortise/base/interruption.h>
 #include <mortise/problem/results/result_checks.h>
 #include <mortise/problem/simulation.h>
 
@@ -56,6 +57,9 @@ namespace mortise
   void
   Simulation::step(const bool writes)
   {
+    // before the first step there is nothing to be kept
+    interruption::be_patient(
+      writes && (parameters.steps.given() || adaptivity.has_value()));
     std::optional<SceneData> data;
     std::optional<SceneLoad> load;
     SolvedState              next;
@@ -86,7 +90,10 @@ namespace mortise
     if (ends_path())
       steps.finish();
     if (writes)
-      write_results(evaluation);
+      {
+        stop_signal = interruption::agreed_signal(context.comm);
+        write_results(evaluation);
+      }
     if (context.parameters.steps.given() && is_last_cycle())
       output.print_progress(steps);
   }

@@ -1,5 +1,5 @@
 // Proves that a signal ends the program, as it should, also while METIS orders,
-// which wants SIGTERM for itself.
+// which wants SIGTERM for itself; and that a patient program keeps the first.
 #include <metis.h>
 #include <mortise/base/interruption.h>
 #include <sys/wait.h>
@@ -47,9 +47,12 @@ namespace
     std::string printed;
   };
 
-  /// A process that orders and gets @p signal meanwhile.
+  /// A process that orders and gets @p signal meanwhile, @p times. A @p patient one
+  /// that comes to its end has the exit code 0 if it knows of the signal then.
   Ended
-  interrupt(const int signal)
+  interrupt(const int          signal,
+            const bool         patient = false,
+            const unsigned int times   = 1)
   {
     int errors[2];
     if (pipe(errors) != 0)
@@ -59,17 +62,25 @@ namespace
       {
         dup2(errors[1], STDERR_FILENO);
         mortise::interruption::catch_signals();
+        mortise::interruption::be_patient(patient);
         if (write(STDERR_FILENO, "!", 1) != 1)
           _exit(1);
-        _exit(order_grid(100) == METIS_OK ? 0 : 1);
+        const bool done = order_grid(100) == METIS_OK;
+        _exit(done && mortise::interruption::agreed_signal(MPI_COMM_SELF) ==
+                        signal ?
+                0 :
+                1);
       }
     close(errors[1]);
     std::string printed;
     char        c;
     if (read(errors[0], &c, 1) == 1)
       {
-        usleep(500000);
-        kill(child, signal);
+        for (unsigned int time = 0; time < times; ++time)
+          {
+            usleep(time == 0 ? 500000 : 200000);
+            kill(child, signal);
+          }
       }
     while (read(errors[0], &c, 1) == 1)
       printed += c;
@@ -97,5 +108,13 @@ main()
       verdict(ended.printed == std::string("interrupted by ") + name +
                                  ": nothing was written\n",
               std::string(name) + " while METIS orders: one message");
+      const Ended done = interrupt(signal, true);
+      verdict(done.code == 0 && done.printed.empty(),
+              std::string(name) + " is kept by a patient program",
+              std::to_string(done.code) + ": " + done.printed);
+      const Ended twice = interrupt(signal, true, 2);
+      verdict(twice.code == 128 + signal && twice.printed == ended.printed,
+              std::string(name) + " twice ends it",
+              std::to_string(twice.code) + ": " + twice.printed);
     }
 }

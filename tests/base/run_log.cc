@@ -111,6 +111,25 @@ namespace
                "a stage that was ended early prints once");
     everywhere(timers.seconds("fails") > 0. && timers.seconds("early") > 0.,
                "stages enter the timers");
+    std::ostringstream file, screen;
+    {
+      RunLog of_file(file, MPI_COMM_WORLD),
+        of_screen(screen, MPI_COMM_WORLD, true);
+      for (RunLog *one : {&of_file, &of_screen})
+        {
+          one->progress(0.5, 2., 3.);
+          one->line("step 2");
+        }
+    }
+    const std::string bar   = "  [###############...............] 50 % done in "
+                              "2 s, about 3 s left",
+                      clear = "\r\033[K";
+    everywhere(file.str() ==
+                 (prints ? "  50 % done in 2 s, about 3 s left\nstep 2\n" : ""),
+               "progress is a line in a file");
+    everywhere(screen.str() ==
+                 (prints ? bar + clear + "step 2\n" + bar + clear : ""),
+               "on a terminal a bar, always below the lines, gone at the end");
     everywhere(RunLog::number(0.000123456) == "0.0001235" &&
                  RunLog::number(96.) == "96",
                "numbers for people");

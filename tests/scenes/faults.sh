@@ -185,11 +185,15 @@ stop() {
   env --default-signal=INT "$@" >"$work/log" 2>"$work/message" &
   pid=$!
   for _ in $(seq 600); do
-    grep -q '  mesh' "$work/log" && break
+    grep -q "${until:-  mesh}" "$work/log" && break
     sleep 0.05
   done
   local start=$(date +%s%N)
-  [ "$whom" = launcher ] || pid=$(rank "$whom")
+  case $whom in
+    launcher) ;;
+    mpirun) pid=$(ps -o ppid= -p "$(rank 0)") ;;
+    *) pid=$(rank "$whom") ;;
+  esac
   kill -s "$signal" "$pid"
   wait $!
   code=$?
@@ -206,6 +210,33 @@ done
 stop TERM 1 "$mpi" 2 "${long[@]}"
 verdict "SIGTERM for rank 1 of 2" '[ $code -eq 143 ]' 'says 1 "interrupted by SIGTERM: nothing was written"' none \
   '[ $(wc -l <<<"$message") -eq 1 ]' '[ $milliseconds -lt 20000 ]'
+
+# Between two steps a run stops in good order, and goes on from there.
+steps=("$mortise" --output "$out" "$scene" --set 'Steps/Step=1' --set 'Steps/End time=3000' --set 'Steps/Output every=3000'
+  --set 'Output/Fields=displacement')
+stopped() {
+  local n
+  n=$(grep -c '^step' "$work/log")
+  verdict "$1 between steps" "[ \$code -eq $2 ]" \
+    "says 1 'interrupted by SIG$3 after step $n, t = $n: its results and a checkpoint are written; to go on: mortise --restart'" \
+    '[ $(wc -l <<<"$message") -eq 1 ]' "[ -s \$out/checkpoint.bin ]" "[ -s \$out/lower_$(printf %04d "$n").vtu ]" \
+    "[ \$(grep -c '\"time\"' \$out/summary.json) -eq $n ]" 'grep -q "\"status\": \"stopped\"" "$out/summary.json"' \
+    '[ $milliseconds -lt 20000 ]'
+  on 1 "$mortise" --restart "$out" --set "Steps/End time=$((n + 2))"
+  verdict "on after $1" '[ $code -eq 0 ]' '[ $(grep -c "^step" "$work/log") -eq 2 ]' "[ \$(grep -c '\"time\"' \$out/summary.json) -eq $((n + 2)) ]"
+}
+until='^step 3,'
+stop INT launcher "${steps[@]}"
+stopped SIGINT 130 INT
+stop TERM launcher "${steps[@]}"
+stopped SIGTERM 143 TERM
+stop TERM launcher "$mpi" 2 "${steps[@]}"
+stopped "SIGTERM for two ranks" 143 TERM
+stop TERM 1 "$mpi" 2 "${steps[@]}"
+stopped "SIGTERM for rank 1 of 2" 143 TERM
+stop USR1 mpirun "$mpi" 2 "${steps[@]}"
+stopped "SIGUSR1 for mpirun" 138 USR1
+until=
 
 export MORTISE_BUILD=$(dirname "$mortise")
 if [ -f "$MORTISE_BUILD/build.ninja" ]; then

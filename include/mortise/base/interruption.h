@@ -1,19 +1,22 @@
 // Handling of signals that end the program: one message with the complete
-// files, no unfinished file, exit code 128 + signal.
+// files, no unfinished file, exit code 128 + signal. A run that can stop
+// between two steps is patient: the first signal asks it to, the second ends
+// it.
 #pragma once
 
 #include <mpi.h>
 
+#include <stdexcept>
 #include <string>
 
 // A handler of signals gets no argument: this is the one place of the program
 // whose state is static.
 namespace mortise::interruption
 {
-  /// From now on SIGINT, SIGTERM and their like end the program as said above.
-  /// Of several ranks the first speaks, until share_silence(): all of them are
-  /// ended together. Call it before anything else and again when libraries are
-  /// initialised, which may take signals for themselves.
+  /// From now on SIGINT, SIGTERM, SIGUSR1 and their like end the program as
+  /// said above. Of several ranks the first speaks, until share_silence(): all
+  /// of them are ended together. Call it before anything else and again when
+  /// libraries are initialised, which may take signals for themselves.
   void
   catch_signals();
 
@@ -27,6 +30,32 @@ namespace mortise::interruption
   /// is to say it, and whoever is ended because of it says nothing more.
   bool
   speak_first();
+
+  /// If @p patient, the first SIGINT, SIGTERM or SIGUSR1 from now on is kept for
+  /// agreed_signal(). What was kept before stays.
+  void
+  be_patient(bool patient);
+
+  /// The signal that a rank has kept, the greatest if they differ; 0: none.
+  /// Collective.
+  int
+  agreed_signal(MPI_Comm comm);
+
+  /// "SIGINT".
+  std::string
+  name_of_signal(int number);
+
+  /// The run has stopped in good order because of a signal.
+  class Interrupted : public std::runtime_error
+  {
+  public:
+    Interrupted(const int signal, const std::string &what)
+      : std::runtime_error(what)
+      , signal(signal)
+    {}
+
+    const int signal;
+  };
 
   /// The file to be removed; none if empty.
   void

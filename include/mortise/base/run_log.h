@@ -47,8 +47,13 @@ namespace mortise
       bool                         open = true;
     };
 
-    /// @p out is written by rank 0 of @p comm only; it must outlive the log.
-    RunLog(std::ostream &out, MPI_Comm comm);
+    /// @p out is written by rank 0 of @p comm only; it must outlive the log. On a
+    /// @p terminal there may be a bar below the lines.
+    RunLog(std::ostream &out, MPI_Comm comm, bool terminal = false);
+    ~RunLog();
+    RunLog(const RunLog &) = delete;
+    RunLog &
+    operator=(const RunLog &) = delete;
 
     /// Run a stage: `auto stage = log.stage(timers, "mesh"); ...
     /// stage.details("96 cells");`
@@ -64,6 +69,11 @@ namespace mortise
     /// A line of text, as it is.
     void
     line(const std::string &text = {});
+
+    /// How much of the run is done (@p fraction of 1) after @p seconds, and in how
+    /// many it will be (@p left): a bar on a terminal, else a line.
+    void
+    progress(double fraction, double seconds, double left);
 
     /// "warning: text", once for each text. Call it on every rank or on rank 0;
     /// what only another rank knows must be brought to rank 0 first.
@@ -96,7 +106,8 @@ namespace mortise
 
   private:
     std::ostream            &out;
-    bool                     prints;
+    bool                     prints, terminal;
+    std::string              bar; ///< below the lines
     std::set<std::string>    seen;
     std::vector<std::string> texts;
   };

@@ -44,8 +44,9 @@ namespace mortise
     compute();
 
     /// The whole run. Collective; throws InputError before anything is written,
-    /// or after a step with an error of writing, and ConvergenceError after the
-    /// last result has been written.
+    /// or after a step with an error of writing, ConvergenceError after the
+    /// last result has been written, and interruption::Interrupted after the
+    /// results and a checkpoint of the step in which a signal came.
     void
     run();
 
@@ -63,6 +64,12 @@ namespace mortise
     /// All steps or cycles; with files if @p writes.
     void
     march(bool writes);
+    /// Is nothing in the way of another step: an error of writing, or a signal?
+    bool
+    goes_on() const;
+    /// "step 3, t = 0.6", or "cycle 2".
+    std::string
+    where() const;
     /// Step by step on one mesh.
     void
     run_steps(bool writes);
@@ -139,8 +146,9 @@ namespace mortise
     std::unique_ptr<SceneSolver> equations;
     std::optional<Adaptivity>    adaptivity; ///< with a target
     SolveReport                  report;     ///< of the last step
-    State                        state;
-    Summary                      summary;
-    RunOutput                    output;
+    int       stop_signal = 0; ///< that came while the last step was made
+    State     state;
+    Summary   summary;
+    RunOutput output;
   };
 } // namespace mortise
