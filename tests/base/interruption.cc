@@ -65,7 +65,7 @@ namespace
         mortise::interruption::be_patient(patient);
         if (write(STDERR_FILENO, "!", 1) != 1)
           _exit(1);
-        const bool done = order_grid(100) == METIS_OK;
+        const bool done = order_grid(patient ? 80 : 100) == METIS_OK;
         _exit(done && mortise::interruption::agreed_signal(MPI_COMM_SELF) ==
                         signal ?
                 0 :
