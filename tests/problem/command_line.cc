@@ -67,7 +67,11 @@ main()
              "part.step",
              {"Mesh size=2"});
   check_error("no mesh", {"--boundaries"}, {"a mesh or CAD file is needed"});
-  check_line("information on a mesh", {"--info", "part.msh"}, Action::info, "part.msh", {});
+  check_line("information on a mesh",
+             {"--info", "part.msh"},
+             Action::info,
+             "part.msh",
+             {});
   check_error("no mesh for info", {"--info"}, {"a mesh or CAD file is needed"});
   check_line("examples", {"--example"}, Action::example, "", {});
   check_line(
