@@ -3,6 +3,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
 #include <mortise/problem/boundary_list.h>
+#include <mortise/problem/import/deck_import.h>
 #include <mortise/problem/input/examples.h>
 #include <mortise/problem/input/parameter_schema.h>
 #include <mortise/problem/mesh_info.h>
@@ -94,12 +95,15 @@ namespace mortise
         case Action::info:
         case Action::boundaries:
         case Action::pairs:
+        case Action::import:
           {
             const std::string text =
               (command.action == Action::pairs ?
                  list_pairs :
                command.action == Action::info ?
                  mesh_info :
+               command.action == Action::import ?
+                 import_deck :
                  list_boundaries)(command.file, command.settings, comm);
             if (prints)
               std::cout << text;

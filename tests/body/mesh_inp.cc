@@ -124,7 +124,9 @@ namespace
       refused(what, file_parameters(write_file("wrong.inp", text)), fragment);
     };
     refuse("no element", nodes, "holds no *ELEMENT");
-    refuse("a part", "*PART, NAME=p\n" + nodes, "in line 1 the keyword *PART");
+    refuse("a part without an instance",
+           "*PART, NAME=p\n" + nodes + cell,
+           "holds no *ELEMENT in an *INSTANCE");
     refuse("a coordinate", "*NODE\n1, 0, x, 0\n", "in line 2 'x', which is no");
     refuse("a node twice",
            nodes + "1,0,0,0\n",

@@ -1,15 +1,13 @@
-// Lines of an input file of Abaqus or CalculiX.
+// Lines of an input file of Abaqus or CalculiX, and of those that it includes.
 #pragma once
 
 #include <deal.II/base/utilities.h>
 
-#include <mortise/base/numbers.h>
 #include <mortise/base/quotes.h>
+#include <mortise/body/mesh/inp_deck.h>
 
-#include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -20,28 +18,31 @@
 
 namespace mortise
 {
-  inline std::string
-  upper(std::string text)
-  {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-      return std::toupper(c);
-    });
-    return text;
-  }
-
-
   class InpLines
   {
   public:
-    InpLines(const std::string &content, const FileError &fail)
-      : in(content)
-      , fail_file(fail)
-    {}
+    InpLines(const std::string &file, const FileError &fail)
+      : fail_file(fail)
+      , directory(std::filesystem::path(file).parent_path())
+    {
+      sources.emplace_back();
+      sources.back().in.str(content_of(file, fail));
+    }
+
+    /// "line 12", or "line 3 of 'mesh.inc'".
+    std::string
+    place() const
+    {
+      std::string text = "line " + std::to_string(sources.back().number);
+      if (sources.size() > 1)
+        text += " of " + file_in_quotes(sources.back().name, '\'');
+      return text;
+    }
 
     [[noreturn]] void
     fail(const std::string &what) const
     {
-      fail_file("has in line " + std::to_string(number) + " " + what);
+      fail_file("has in " + place() + " " + what);
       std::abort();
     }
 
@@ -49,16 +50,36 @@ namespace mortise
     bool
     next_line()
     {
-      while (std::getline(in, line))
+      for (; !sources.empty(); sources.pop_back())
         {
-          ++number;
-          line = dealii::Utilities::trim(line);
-          if (!line.empty() && line.back() == '\r')
-            line.pop_back();
-          if (!line.empty() && line.compare(0, 2, "**") != 0)
-            return true;
+          while (std::getline(sources.back().in, line))
+            {
+              ++sources.back().number;
+              line = dealii::Utilities::trim(line);
+              if (!line.empty() && line.back() == '\r')
+                line.pop_back();
+              if (!line.empty() && line.compare(0, 2, "**") != 0)
+                return true;
+            }
+          if (sources.size() == 1)
+            break; // place() may still be asked for
         }
       return false;
+    }
+
+    /// Lines of the file @p name come next.
+    void
+    include(const std::string &name)
+    {
+      if (sources.size() > 16)
+        fail("an *INCLUDE within 16 others; does a file include itself?");
+      const std::string content = content_of(
+        located_file(name, directory.string()), [&](const std::string &what) {
+          fail("*INCLUDE of " + file_in_quotes(name, '\'') + ", which " + what);
+        });
+      sources.emplace_back();
+      sources.back().name = name;
+      sources.back().in.str(content);
     }
 
     static std::vector<std::string>
@@ -100,18 +121,11 @@ namespace mortise
     double
     real(const std::string &word) const
     {
-      std::string text = word;
-      for (char &c : text)
-        if (c == 'd' || c == 'D') // of Fortran
-          c = 'e';
-      const ReadNumber value = read_number(text);
-      if (!value.problem.empty() || !std::isfinite(value.value))
-        fail(in_quotes(word, '\'') + ", which is no number");
-      return value.value;
+      return inp_number(word, [&](const std::string &what) { fail(what); });
     }
 
-    std::optional<long>
-    integer_if_any(const std::string &word) const
+    static std::optional<long>
+    integer_if_any(const std::string &word)
     {
       char      *end   = nullptr;
       const long value = std::strtol(word.c_str(), &end, 10);
@@ -133,8 +147,15 @@ namespace mortise
     std::map<std::string, std::string> options; ///< of the last keyword
 
   private:
-    std::istringstream in;
-    const FileError   &fail_file;
-    std::size_t        number = 0;
+    struct Source
+    {
+      std::istringstream in;
+      std::string        name;
+      std::size_t        number = 0;
+    };
+
+    const FileError            &fail_file;
+    const std::filesystem::path directory;
+    std::vector<Source>         sources; ///< the file, what it includes, ...
   };
 } // namespace mortise

@@ -1,13 +1,16 @@
-#include <mortise/base/error.h>
+#include <deal.II/base/tensor.h>
+
+#include <deal.II/physics/transformations.h>
+
+#include <mortise/base/numbers.h>
 #include <mortise/base/quotes.h>
+#include <mortise/body/mesh/inp_deck.h>
+#include <mortise/body/mesh/inp_shapes.h>
 
 #include <algorithm>
-#include <array>
-#include <set>
+#include <cmath>
 
 #include "inp_lines.h"
-#include "inp_shapes.h"
-#include "mesh_file_parts.h"
 
 namespace mortise
 {
@@ -15,97 +18,263 @@ namespace mortise
 
   namespace
   {
-    struct InpElement
-    {
-      unsigned int              dimension = 0, n_vertices = 0;
-      std::vector<unsigned int> nodes;
-      std::size_t               tag = 0;
-      std::set<int>             groups;
-    };
-
-    /// Walks through the lines of one file.
+    /// Walks through the lines of a file. Parts are decks of their own, which
+    /// instances copy into the deck.
     class InpReader : private InpLines
     {
     public:
-      InpReader(const std::string &content, const FileError &fail)
-        : InpLines(content, fail)
+      InpReader(const std::string &file, const FileError &fail)
+        : InpLines(file, fail)
         , fail_file(fail)
       {}
 
-      GmshModel
+      InpDeck
       read()
       {
         while (next_line())
           if (line[0] == '*')
             begin_keyword();
-          else if (!read_data.empty())
+          else
             data_line();
-        if (elements.empty())
-          fail_file("holds no *ELEMENT");
-        return finish();
+        if (deck.elements.empty())
+          fail_file("holds no *ELEMENT" +
+                    std::string(parts.empty() ? "" : " in an *INSTANCE"));
+        return std::move(deck);
       }
 
     private:
       void
       begin_keyword()
       {
-        const std::string keyword = read_keyword();
-        read_data                 = "";
-        if (keyword == "*PART" || keyword == "*INSTANCE")
-          fail("the keyword " + keyword +
-               "; allowed: one mesh without parts and instances (in Abaqus: "
-               "Model attributes, no parts and assemblies in input files)");
+        keyword = read_keyword();
         if (keyword == "*INCLUDE")
-          fail("the keyword *INCLUDE; allowed: all in one file");
-        if (keyword == "*ELEMENT")
+          return include(options["INPUT"]);
+        if (keyword == "*PART")
+          at = &parts[upper(needed("NAME"))];
+        else if (keyword == "*INSTANCE")
+          begin_instance();
+        else if (keyword == "*END INSTANCE")
+          end_instance();
+        else if (keyword == "*END PART")
+          at = &deck;
+        else if (keyword == "*ELEMENT")
           begin_elements();
-        else if (keyword == "*SURFACE" && upper(options["TYPE"]) == "NODE")
-          return;
-        else if (keyword == "*NODE" || keyword == "*ELSET" ||
-                 keyword == "*NSET" || keyword == "*SURFACE")
-          read_data = keyword;
-        if (read_data == "*ELSET" || read_data == "*NSET" ||
-            read_data == "*SURFACE")
+        else if (keyword == "*ELSET" || keyword == "*NSET")
+          begin_set();
+        else if (keyword == "*SURFACE")
+          begin_surface();
+        else if (keyword == "*NGEN" || keyword == "*NFILL" ||
+                 keyword == "*NCOPY" || keyword == "*ELGEN" ||
+                 keyword == "*ELCOPY" || keyword == "*SYSTEM")
+          fail("the keyword " + keyword +
+               "; allowed: nodes and elements given one by one");
+        else if (keyword != "*NODE" && keyword != "*ASSEMBLY" &&
+                 keyword != "*END ASSEMBLY")
           {
-            const std::string name =
-              options[read_data == "*SURFACE" ? "NAME" : read_data.substr(1)];
-            if (name.empty())
-              fail("a " + read_data + " without a name");
-            set_name = name;
+            at->blocks.emplace_back();
+            at->blocks.back().keyword = keyword;
+            at->blocks.back().options = options;
+            at->blocks.back().place   = place();
           }
+      }
+
+      /// The value of an option that must be there.
+      std::string
+      needed(const std::string &option)
+      {
+        if (options[option].empty())
+          fail("a " + keyword + " without a name");
+        return options[option];
+      }
+
+      void
+      begin_instance()
+      {
+        instance_name   = needed("NAME");
+        const auto part = parts.find(upper(options["PART"]));
+        if (part == parts.end())
+          fail("an *INSTANCE of the part " + in_quotes(options["PART"], '\'') +
+               ", which the file does not have before it");
+        instance = part->second;
+        at       = &instance;
+        motion.clear();
+      }
+
+      /// Copy the instance into the deck: moved, then turned about an axis.
+      void
+      end_instance()
+      {
+        at = &deck;
+        Tensor<1, 3> shift;
+        Point<3>     pivot;
+        Tensor<2, 3> rotation = unit_symmetric_tensor<3>();
+        if (motion.size() > 0)
+          shift = point_of(motion[0], 0);
+        if (motion.size() > 1)
+          {
+            if (motion[1].size() != 7)
+              fail("an *INSTANCE whose rotation has " +
+                   std::to_string(motion[1].size()) +
+                   " numbers before it; allowed: 7, two points and an angle");
+            pivot                   = point_of(motion[1], 0);
+            const Tensor<1, 3> axis = point_of(motion[1], 3) - pivot;
+            if (!(axis.norm() > 0.))
+              fail("an *INSTANCE with an axis of no length before it");
+            rotation = Physics::Transformations::Rotations::rotation_matrix_3d(
+              Point<3>(axis / axis.norm()), motion[1][6] * numbers::PI / 180.);
+          }
+        append(instance, upper(instance_name), [&](const Point<3> &x) {
+          return pivot + rotation * (x + shift - pivot);
+        });
+        deck.rotations[upper(instance_name)] = rotation;
+      }
+
+      static Point<3>
+      point_of(const std::vector<double> &numbers, const unsigned int first)
+      {
+        Point<3> x;
+        for (unsigned int d = 0; d < 3 && first + d < numbers.size(); ++d)
+          x[d] = numbers[first + d];
+        return x;
+      }
+
+      template <typename Move>
+      void
+      append(const InpDeck &part, const std::string &name, const Move &move)
+      {
+        const unsigned int first_node    = deck.nodes.size(),
+                           first_element = deck.elements.size();
+        for (const Point<3> &x : part.nodes)
+          deck.nodes.push_back(move(x));
+        deck.node_tags.insert(deck.node_tags.end(),
+                              part.node_tags.begin(),
+                              part.node_tags.end());
+        for (InpElement element : part.elements)
+          {
+            for (unsigned int &node : element.nodes)
+              node += first_node;
+            deck.elements.push_back(element);
+          }
+        const auto copy_sets =
+          [&](const auto &from, auto &to, const unsigned int first) {
+            for (const auto &[set, members] : from)
+              for (const unsigned int member : members)
+                to[name + "." + set].insert(first + member);
+          };
+        copy_sets(part.node_sets, deck.node_sets, first_node);
+        copy_sets(part.node_surfaces, deck.node_surfaces, first_node);
+        copy_sets(part.element_sets, deck.element_sets, first_element);
+        for (const auto &[surface, sides] : part.surfaces)
+          for (const InpSide &side : sides)
+            deck.surfaces[name + "." + surface].push_back(
+              {first_element + side.element, side.face});
+        for (const auto &[key, written] : part.names)
+          deck.names[name + "." + key] = instance_name + "." + written;
+        const auto copy_places =
+          [&](const auto &from, auto &to, const unsigned int first) {
+            if (from.count("") > 0)
+              for (const auto &[tag, place] : from.at(""))
+                to[name][tag] = first + place;
+          };
+        copy_places(part.node_places, deck.node_places, first_node);
+        copy_places(part.element_places, deck.element_places, first_element);
+        for (InpBlock block : part.blocks)
+          {
+            block.instance = name;
+            deck.blocks.push_back(block);
+          }
+        // an instance is a set of its elements
+        deck.names[name] = instance_name;
+        for (unsigned int e = first_element; e < deck.elements.size(); ++e)
+          deck.element_sets[name].insert(e);
       }
 
       void
       begin_elements()
       {
-        const std::string name = upper(options["TYPE"]);
-        const InpType     type = inp_type(name);
+        pattern            = InpElement();
+        pattern.type       = upper(options["TYPE"]);
+        const InpType type = inp_type(pattern.type);
         if (type.dimension == 3 && type.n_vertices == 0)
-          fail("elements of type " + name +
+          fail("elements of type " + pattern.type +
                "; allowed: C3D4, C3D6, C3D8, C3D10, C3D15 and C3D20 in all "
                "their variants");
-        if (type.n_vertices == 0)
-          return; // beams, springs: no part of a body
-        pattern            = InpElement();
-        pattern.dimension  = type.dimension;
-        pattern.n_vertices = type.n_vertices;
         n_nodes            = type.n_nodes;
-        read_data          = "*ELEMENT";
+        pattern.dimension  = type.n_vertices == 0 ? 0 : type.dimension;
+        pattern.n_vertices = type.n_vertices;
+        set_key            = "";
         if (!options["ELSET"].empty())
-          pattern.groups = {group(options["ELSET"])};
+          set_key = named(options["ELSET"], "");
+        if (pattern.dimension == 3)
+          return;
+        at->blocks.emplace_back(); // for those who want to know what is left
+        at->blocks.back().keyword = keyword;
+        at->blocks.back().options = options;
+        at->blocks.back().place   = place();
+      }
+
+      /// The key of a set, whose name as it is written is kept.
+      std::string
+      named(const std::string &name, const std::string &of_instance)
+      {
+        const std::string key =
+          (of_instance.empty() ? "" : of_instance + ".") + upper(name);
+        at->names.emplace(key,
+                          (of_instance.empty() ? "" : of_instance + ".") +
+                            name);
+        return key;
+      }
+
+      void
+      begin_set()
+      {
+        scope   = upper(options["INSTANCE"]);
+        set_key = named(needed(keyword.substr(1)), "");
+        if (keyword == "*NSET")
+          at->node_sets[set_key];
+        else
+          at->element_sets[set_key];
+        if (keyword == "*NSET" && !options["ELSET"].empty())
+          for (const unsigned int e :
+               at->find_elements(options["ELSET"], scope))
+            at->node_sets[set_key].insert(at->elements[e].nodes.begin(),
+                                          at->elements[e].nodes.end());
+      }
+
+      void
+      begin_surface()
+      {
+        set_key = named(needed("NAME"), "");
+        if (options.count("COMBINE") > 0)
+          fail("a *SURFACE with COMBINE; allowed: TYPE=ELEMENT and TYPE=NODE");
+        if (upper(options["TYPE"]) == "NODE")
+          at->node_surfaces[set_key];
+        else
+          at->surfaces[set_key];
       }
 
       void
       data_line()
       {
-        if (read_data == "*NODE")
+        if (keyword == "*NODE")
           read_node();
-        else if (read_data == "*ELEMENT")
-          read_element();
-        else if (read_data == "*SURFACE")
-          read_surface();
-        else
+        else if (keyword == "*ELEMENT")
+          {
+            if (pattern.dimension > 0)
+              read_element();
+          }
+        else if (keyword == "*ELSET" || keyword == "*NSET")
           read_set();
+        else if (keyword == "*SURFACE")
+          read_surface();
+        else if (keyword == "*INSTANCE")
+          {
+            motion.emplace_back();
+            for (const std::string &word : words_of(line))
+              motion.back().push_back(real(word));
+          }
+        else if (!at->blocks.empty() && at->blocks.back().keyword == keyword)
+          at->blocks.back().lines.push_back({words_of(line), place()});
       }
 
       void
@@ -114,20 +283,19 @@ namespace mortise
         const auto words = words_of(line);
         if (words.size() < 3)
           fail("a node with fewer than two coordinates");
+        if (options.count("SYSTEM") > 0 && upper(options["SYSTEM"]) != "R")
+          fail("nodes in another system; allowed: x, y, z");
         Point<3> x;
         for (unsigned int d = 0; d + 1 < std::min<std::size_t>(4, words.size());
              ++d)
           x[d] = real(words[d + 1]);
         const long tag = integer(words[0]);
-        if (!places.emplace(tag, model.nodes.size()).second)
+        if (!at->node_places[""].emplace(tag, at->nodes.size()).second)
           fail("the node " + words[0] + " a second time");
-        model.nodes.push_back(x);
-        model.node_tags.push_back(tag);
-        if (options.count("NSET") > 0)
-          {
-            node_sets[upper(options["NSET"])].insert(tag);
-            names.emplace(upper(options["NSET"]), options["NSET"]);
-          }
+        if (!options["NSET"].empty())
+          at->node_sets[named(options["NSET"], "")].insert(at->nodes.size());
+        at->nodes.push_back(x);
+        at->node_tags.push_back(tag);
       }
 
       void
@@ -144,28 +312,32 @@ namespace mortise
           }
         InpElement element = pattern;
         element.tag        = integer(words[0]);
+        const auto &places = at->node_places[""];
         for (unsigned int v = 0; v < n_nodes; ++v)
           {
-            const auto place = places.find(integer(words[v + 1]));
-            if (place == places.end())
+            const auto node = places.find(integer(words[v + 1]));
+            if (node == places.end())
               fail("the node " + words[v + 1] +
                    ", which the file does not have before it");
-            element.nodes.push_back(place->second);
+            element.nodes.push_back(node->second);
           }
-        if (!element_places.emplace(element.tag, elements.size()).second)
+        if (!at->element_places[""]
+               .emplace(element.tag, at->elements.size())
+               .second)
           fail("the element " + words[0] + " a second time");
-        elements.push_back(element);
+        if (!set_key.empty())
+          at->element_sets[set_key].insert(at->elements.size());
+        at->elements.push_back(element);
       }
 
       /// Members of a set: numbers, or other sets.
       void
       read_set()
       {
-        const bool of_elements = read_data == "*ELSET";
+        const bool of_elements = keyword == "*ELSET";
         const auto words       = words_of(line);
-        auto      &sets        = of_elements ? element_sets : node_sets;
-        names.emplace(upper(set_name), set_name);
-        std::set<long> &members = sets[upper(set_name)];
+        auto      &sets        = of_elements ? at->element_sets : at->node_sets;
+        auto      &members     = sets[set_key];
         if (options.count("GENERATE") > 0)
           {
             if (words.size() < 2)
@@ -175,205 +347,100 @@ namespace mortise
             if (step < 1)
               fail("a range with the step " + std::to_string(step));
             // only those that are there: ranges may be of any length
-            const auto &known = of_elements ? element_places : places;
+            const auto &known =
+              of_elements ? at->element_places[scope] : at->node_places[scope];
             for (auto it = known.lower_bound(first);
                  it != known.end() && it->first <= last;
                  ++it)
               if ((it->first - first) % step == 0)
-                members.insert(it->first);
+                members.insert(it->second);
             return;
           }
         for (const std::string &word : words)
-          if (const auto value = integer_if_any(word))
-            members.insert(*value);
-          else if (sets.count(upper(word)) > 0)
-            members.insert(sets.at(upper(word)).begin(),
-                           sets.at(upper(word)).end());
-          else
-            fail("the set " + in_quotes(word, '\'') +
-                 ", which the file does not have before it");
+          {
+            const auto more = of_elements ? at->find_elements(word, scope) :
+                                            at->find_nodes(word, scope);
+            if (more.empty() && !integer_if_any(word) &&
+                at->find_set(sets, word, scope) == nullptr)
+              fail("the set " + in_quotes(word, '\'') +
+                   ", which the file does not have before it");
+            members.insert(more.begin(), more.end());
+          }
       }
 
-      /// "elements, S3".
+      /// "elements, S3", or elements alone: their faces at no other element.
       void
       read_surface()
       {
-        const auto        words = words_of(line);
-        const std::string side  = words.size() > 1 ? upper(words[1]) : "";
-        if (side.size() != 2 || side[0] != 'S' || side[1] < '1' ||
-            side[1] > '6')
+        const auto words = words_of(line);
+        if (at->node_surfaces.count(set_key) > 0)
+          {
+            const auto nodes = at->find_nodes(words[0], "");
+            at->node_surfaces[set_key].insert(nodes.begin(), nodes.end());
+            return;
+          }
+        const std::string side = words.size() > 1 ? upper(words[1]) : "";
+        if (!side.empty() && (side.size() != 2 || side[0] != 'S' ||
+                              side[1] < '1' || side[1] > '6'))
           fail("a surface " + in_quotes(line, '\'') +
                "; allowed: an element or a set of elements, and S1 to S6");
-        std::set<long> members;
-        if (const auto value = integer_if_any(words[0]))
-          members = {*value};
-        else if (element_sets.count(upper(words[0])) > 0)
-          members = element_sets.at(upper(words[0]));
-        else
-          for (const InpElement &element : elements)
-            if (element.groups.count(group(words[0])) > 0)
-              members.insert(element.tag);
+        const auto members = at->find_elements(words[0], "");
+        if (members.empty() && integer_if_any(words[0]))
+          fail("the element " + words[0] + ", which the file does not have");
         if (members.empty())
           fail("the set " + in_quotes(words[0], '\'') +
                ", which the file does not have before it");
-        for (const long tag : members)
+        if (side.empty())
+          return add_free_faces(members);
+        const unsigned int face = side[1] - '1';
+        for (const unsigned int e : members)
           {
-            const auto place = element_places.find(tag);
-            if (place == element_places.end())
-              fail("the element " + std::to_string(tag) +
-                   ", which the file does not have");
-            const InpElement &element = elements[place->second];
-            const auto       &faces   = inp_shape(element.n_vertices).faces;
-            const std::size_t f       = side[1] - '1';
-            if (element.dimension != 3 || f >= faces.size())
-              fail("the side " + side + " of element " + std::to_string(tag) +
-                   ", which has none such");
-            add_face(element, faces[f], set_name);
+            const InpElement &element = at->elements[e];
+            if (element.dimension != 3 ||
+                face >= inp_shape(element.n_vertices).faces.size())
+              fail("the side " + side + " of element " +
+                   std::to_string(element.tag) + ", which has none such");
+            at->surfaces[set_key].push_back({e, face});
           }
       }
 
       void
-      add_face(const InpElement                &cell,
-               const std::vector<unsigned int> &vertices,
-               const std::string               &name)
+      add_free_faces(const std::set<unsigned int> &members)
       {
-        InpElement face;
-        face.dimension  = 2;
-        face.n_vertices = vertices.size();
-        face.tag        = cell.tag;
-        face.groups     = {group(name)};
-        for (const unsigned int v : vertices)
-          face.nodes.push_back(cell.nodes[v]);
-        faces_of_sets.push_back(face);
-      }
-
-      /// The number of a set by its name, whatever the case of its letters.
-      int
-      group(const std::string &name)
-      {
-        names.emplace(upper(name), name);
-        return groups.emplace(upper(name), groups.size() + 1).first->second;
-      }
-
-      /// Sides of cells all of whose vertices are in a set of nodes.
-      void
-      add_node_sets()
-      {
-        for (const auto &[name, tags] : node_sets)
-          {
-            std::vector<bool> in_set(model.nodes.size(), false);
-            for (const long tag : tags)
-              if (places.count(tag) > 0)
-                in_set[places.at(tag)] = true;
-            const bool has_all =
-              std::all_of(elements.begin(), elements.end(), [&](const auto &e) {
-                return std::all_of(e.nodes.begin(),
-                                   e.nodes.begin() + e.n_vertices,
-                                   [&](const auto v) { return in_set[v]; });
-              });
-            if (has_all)
-              continue; // the set that is called NALL
-            for (const InpElement &cell : elements)
-              if (cell.dimension == 3)
-                for (const auto &face : inp_shape(cell.n_vertices).faces)
-                  if (std::all_of(face.begin(), face.end(), [&](const auto v) {
-                        return in_set[cell.nodes[v]];
-                      }))
-                    add_face(cell, face, names.at(name));
-          }
-      }
-
-      static std::vector<Point<3>>
-      reference_of(const InpElement &element)
-      {
-        if (element.dimension == 2)
-          return std::vector<Point<3>>(element.n_vertices);
-        const InpShape       &shape = inp_shape(element.n_vertices);
-        std::vector<Point<3>> nodes = shape.vertices;
-        if (element.nodes.size() > element.n_vertices)
-          for (const auto &edge : shape.edges)
-            nodes.push_back(nodes[edge[0]] +
-                            (nodes[edge[1]] - nodes[edge[0]]) / 2.);
-        return nodes;
-      }
-
-      void
-      add_blocks(const std::vector<InpElement> &sorted, const bool solid)
-      {
-        std::map<std::array<std::size_t, 2>,
-                 std::map<std::set<int>, GmshElements>>
-          blocks;
-        for (const InpElement &element : sorted)
-          {
-            if ((element.dimension == 3) != solid)
-              continue;
-            const std::size_t n =
-              solid ? element.nodes.size() : element.n_vertices;
-            GmshElements &block =
-              blocks[{element.n_vertices, n}][element.groups];
-            if (block.reference.empty())
+        std::map<std::set<unsigned int>, std::vector<InpSide>> faces;
+        for (unsigned int e = 0; e < at->elements.size(); ++e)
+          if (at->elements[e].dimension == 3)
+            for (unsigned int f = 0;
+                 f < inp_shape(at->elements[e].n_vertices).faces.size();
+                 ++f)
               {
-                block.groups.assign(element.groups.begin(),
-                                    element.groups.end());
-                block.dimension  = element.dimension;
-                block.n_vertices = element.n_vertices;
-                block.order      = n > element.n_vertices ? 2 : 1;
-                block.type = solid ? inp_shape(element.n_vertices).name + " " +
-                                       std::to_string(n) :
-                                     "side";
-                block.reference = reference_of(element);
+                const auto nodes = at->nodes_of({e, f});
+                faces[{nodes.begin(), nodes.end()}].push_back({e, f});
               }
-            block.nodes.insert(block.nodes.end(),
-                               element.nodes.begin(),
-                               element.nodes.begin() + n);
-            block.tags.push_back(element.tag);
-          }
-        for (const auto &shape : blocks)
-          for (const auto &block : shape.second)
-            model.elements.push_back(block.second);
-      }
-
-      GmshModel
-      finish()
-      {
-        for (const auto &[name, tags] : element_sets)
-          for (const long tag : tags)
-            if (element_places.count(tag) > 0)
-              elements[element_places.at(tag)].groups.insert(
-                group(names.at(name)));
-        add_node_sets();
-        add_blocks(faces_of_sets, false);
-        add_blocks(elements, false);
-        add_blocks(elements, true);
-        for (const GmshElements &block : model.elements)
-          for (const int tag : block.groups)
-            for (const auto &[name, its_tag] : groups)
-              if (its_tag == tag)
-                (block.dimension == 2 ? model.surface_names :
-                                        model.volume_names)[tag] =
-                  names.at(name);
-        model.surfaces_may_overlap = true;
-        return std::move(model);
+        for (const auto &face : faces)
+          if (face.second.size() == 1 &&
+              members.count(face.second[0].element) > 0)
+            at->surfaces[set_key].push_back(face.second[0]);
       }
 
       const FileError &fail_file;
-      std::string      read_data; ///< keyword; empty: skipped
-      std::string      set_name;
+      std::string      keyword; ///< of the lines of data
+      std::string      set_key; ///< of the set or surface that is read
+      std::string      scope;   ///< instance of the members of a set
       InpElement       pattern;
       std::size_t      n_nodes = 0;
 
-      GmshModel                             model;
-      std::map<long, std::size_t>           places, element_places;
-      std::vector<InpElement>               elements, faces_of_sets;
-      std::map<std::string, std::set<long>> element_sets, node_sets;
-      std::map<std::string, std::string>    names;  ///< as first written
-      std::map<std::string, int>            groups; ///< by name in capitals
+      InpDeck                          deck, instance;
+      InpDeck                         *at = &deck; ///< what is read
+      std::map<std::string, InpDeck>   parts;
+      std::string                      instance_name;
+      std::vector<std::vector<double>> motion; ///< lines of *INSTANCE
     };
   } // namespace
 
-  GmshModel
-  read_inp(const std::string &content, const FileError &fail)
+  InpDeck
+  read_inp_deck(const std::string &file, const FileError &fail)
   {
-    return InpReader(content, fail).read();
+    return InpReader(file, fail).read();
   }
 } // namespace mortise

@@ -1,4 +1,4 @@
-#include "inp_shapes.h"
+#include <mortise/body/mesh/inp_shapes.h>
 
 #include <cctype>
 #include <cstdlib>

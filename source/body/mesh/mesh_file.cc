@@ -74,19 +74,11 @@ namespace mortise
       const FileError fail = [&](const std::string &what) {
         throw InputError(file_problem(where, file, what));
       };
-      std::ifstream     in(file, std::ios::binary);
-      const std::string content((std::istreambuf_iterator<char>(in)),
-                                std::istreambuf_iterator<char>());
-      std::error_code   none; // a name that is too long has no status
-      if (!std::filesystem::is_regular_file(file, none) || !in.is_open() ||
-          in.bad())
-        fail("cannot be read; does it exist, and is it readable?");
-      if (content.empty())
-        fail("is empty");
+      if (is_inp_file(file))
+        return read_inp(file, fail);
+      const std::string content = content_of(file, fail);
       if (is_mesh_file(file))
         return read_msh(content, fail);
-      if (is_inp_file(file))
-        return read_inp(content, fail);
       if (is_vtu_file(file))
         return read_vtu(content, fail);
       if (is_geometry_file(file))
@@ -206,6 +198,21 @@ namespace mortise
         }
     }
   } // namespace
+
+  std::string
+  content_of(const std::string &file, const FileError &fail)
+  {
+    std::ifstream     in(file, std::ios::binary);
+    const std::string content((std::istreambuf_iterator<char>(in)),
+                              std::istreambuf_iterator<char>());
+    std::error_code   none; // a name that is too long has no status
+    if (!std::filesystem::is_regular_file(file, none) || !in.is_open() ||
+        in.bad())
+      fail("cannot be read; does it exist, and is it readable?");
+    if (content.empty())
+      fail("is empty");
+    return content;
+  }
 
   std::string
   located_file(const std::string &file_name, const std::string &directory)

@@ -4,6 +4,8 @@
 
 #include <mortise/body/mesh/generators.h>
 #include <mortise/body/mesh/gmsh_model.h>
+#include <mortise/body/mesh/inp_deck.h>
+#include <mortise/body/mesh/mesh_file.h>
 #include <mpi.h>
 
 #include <array>
@@ -13,8 +15,9 @@
 
 namespace mortise
 {
-  /// Throws InputError with the file's name before @p what.
-  using FileError = std::function<void(const std::string &what)>;
+  /// What @p file holds. @p fail is told if it cannot be read, or is empty.
+  std::string
+  content_of(const std::string &file, const FileError &fail);
 
   /// The mesh in the @p content of a .msh file of version 2.2 or 4.1, as text or
   /// bytes: without gmsh's library, which takes counts on trust and crashes,
@@ -25,13 +28,13 @@ namespace mortise
   GmshModel
   read_msh(const std::string &content, const FileError &fail);
 
-  /// The mesh in the @p content of an input file of Abaqus or CalculiX (.inp):
-  /// nodes, solid elements, sets, surfaces. Sets of elements are groups of
-  /// volumes; surfaces, sets of shells and membranes, and sides of cells whose
-  /// nodes are all in a set of nodes are groups of surfaces, which may overlap.
-  /// Materials, steps and the like are passed over.
+  /// The mesh of the input file @p file of Abaqus or CalculiX (.inp): nodes,
+  /// solid elements, sets, surfaces. Sets of elements are groups of volumes,
+  /// and so is each instance; surfaces, sets of shells and membranes, and sides
+  /// of cells whose nodes are all in a set of nodes are groups of surfaces,
+  /// which may overlap. Materials, steps and the like are passed over.
   GmshModel
-  read_inp(const std::string &content, const FileError &fail);
+  read_inp(const std::string &file, const FileError &fail);
 
   /// The mesh in the @p content of an XML file of VTK (.vtu): an
   /// UnstructuredGrid of any number of pieces, as text, in base 64 or raw,

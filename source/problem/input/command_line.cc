@@ -19,6 +19,7 @@ namespace mortise
                                                    "--info",
                                                    "--boundaries",
                                                    "--pairs",
+                                                   "--import",
                                                    "--example",
                                                    "--help",
                                                    "--version"};
@@ -55,7 +56,7 @@ namespace mortise
         fail(
           "got " + option +
           " and another option that asks for something else; allowed is one of "
-          "--validate, --parameters, --report, --info, --boundaries, --pairs, --example, --help, --version");
+          "--validate, --parameters, --report, --info, --boundaries, --pairs, --import, --example, --help, --version");
       line.action = action;
     }
 
@@ -126,6 +127,8 @@ namespace mortise
         set_action(line, Action::boundaries, option);
       else if (option == "--pairs")
         set_action(line, Action::pairs, option);
+      else if (option == "--import")
+        set_action(line, Action::import, option);
       else if (option == "--example")
         set_action(line, Action::example, option);
       else if (option == "--help" || option == "-h")
@@ -166,6 +169,8 @@ namespace mortise
         line.file.empty())
       fail(
         "a mesh or CAD file is needed, as in: mortise --boundaries part.step");
+    if (line.action == Action::import && line.file.empty())
+      fail("an input deck is needed, as in: mortise --import deck.inp");
     if (needs_file && line.file.empty() && line.restart.empty())
       fail("a parameter file is needed, as in: mortise prm/thick_sphere.prm");
     return line;
@@ -189,6 +194,8 @@ namespace mortise
            "  mortise --pairs FILE                       list faces of its bodies that "
            "lie opposite each\n"
            "                                             other, and write a scene\n"
+           "  mortise --import FILE.inp                  make a scene of an input deck of "
+           "Abaqus or CalculiX\n"
            "  mortise --example [NAME]                   list the scenes that come with the "
            "program, or write\n"
            "                                             one and its meshes here\n"

@@ -20,6 +20,7 @@ namespace mortise
       info,                     ///< what is in a mesh or CAD file
       boundaries,               ///< list the faces of a mesh or CAD file
       pairs,   ///< list faces of its bodies that lie opposite each other
+      import,  ///< make a scene of an input deck
       example, ///< list the scenes that come with the program, or write one
       print_help,
       print_version

@@ -1,0 +1,69 @@
+// Bodies of a deck, and their faces.
+#pragma once
+
+#include <mortise/body/mesh/inp_deck.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "import_remarks.h"
+
+namespace mortise
+{
+  struct ImportFace
+  {
+    InpSide                   side;
+    unsigned int              body;
+    std::vector<unsigned int> nodes; ///< see InpDeck::nodes_of()
+    unsigned int              n_vertices;
+    std::vector<unsigned int> conditions; ///< of ImportConditions, ascending
+    std::string               boundary;   ///< empty: in none
+  };
+
+  struct ImportBody
+  {
+    std::string               name;
+    const InpBlock           *section;
+    std::vector<unsigned int> elements; ///< ascending
+    std::vector<unsigned int> nodes;    ///< ascending
+  };
+
+  /// The vertices of a side, ascending.
+  using SideKey = std::vector<unsigned int>;
+
+  struct ImportBodies
+  {
+    ImportBodies(const InpDeck &deck, ImportRemarks &remarks);
+
+    /// Faces of only one element of a body that are sides among @p sides.
+    std::vector<unsigned int>
+    faces_of(const std::vector<InpSide> &sides) const;
+
+    const InpDeck          &deck;
+    std::vector<ImportBody> bodies;
+    std::vector<ImportFace> faces; ///< those of only one element of a body
+    /// Faces at which two bodies share nodes.
+    std::vector<std::array<unsigned int, 2>> shared;
+    /// Bodies of each node.
+    std::vector<std::vector<unsigned int>> bodies_of_node;
+
+  private:
+    std::vector<const InpBlock *>
+    sections(ImportRemarks &remarks) const;
+    void
+    find_bodies(const std::vector<const InpBlock *> &section_of);
+    void
+    name_bodies();
+    void
+    find_faces();
+
+    std::map<std::array<unsigned int, 2>, unsigned int> place; ///< of a side
+  };
+
+  /// A name that a scene may have, of one that may be anything; never one of
+  /// @p others, whatever the case of its letters.
+  std::string
+  scene_name(const std::string &name, const std::vector<std::string> &others);
+} // namespace mortise
