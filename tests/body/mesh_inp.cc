@@ -4,6 +4,7 @@
 
 #include <verdict.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gmsh_meshes.h"
@@ -113,6 +114,67 @@ namespace
             brick.remark + counts(brick));
   }
 
+  /// A part that is there twice, once moved by (0, 0, 1) and turned by 90
+  /// degrees about an axis along z at (1, 0); nodes in a file of their own.
+  void
+  check_instances()
+  {
+    write_file("nodes.inc", "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n");
+    const std::string text =
+      "*PART, NAME=p\n*INCLUDE, INPUT=" + temporary_file("nodes.inc") +
+      "\n*ELEMENT, TYPE=C3D4, ELSET=e\n7, 1, 2, 3, 4\n*NSET, NSET=foot\n1, 2, 3\n"
+      "*SURFACE, NAME=skin\ne\n*END PART\n*ASSEMBLY, NAME=a\n"
+      "*INSTANCE, NAME=First, PART=P\n*END INSTANCE\n"
+      "*INSTANCE, NAME=Second, PART=p\n0, 0, 1\n1, 0, 0, 1, 0, 1, 90\n*END INSTANCE\n"
+      "*NSET, NSET=feet, INSTANCE=First\n1, 2, 3\n*NSET, NSET=feet\nSecond.foot\n"
+      "*ELSET, ELSET=both, INSTANCE=Second\n7\n*ELSET, ELSET=both\nFirst.7\n"
+      "*SURFACE, NAME=slant\nboth, S3\n*END ASSEMBLY\n";
+    mortise::MeshParameters q =
+      file_parameters(write_file("instances.inp", text));
+    q.part                = "Second";
+    q.boundaries          = "under: named feet; front: named slant";
+    const CoarseMesh mesh = mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
+    // (x, y, z) goes to (1 - y, x - 1, z + 1)
+    const std::vector<Point<3>> expected = {{1, -1, 1},
+                                            {1, 0, 1},
+                                            {0, -1, 1},
+                                            {1, -1, 2}};
+    bool                        moved    = mesh.vertices.size() == 4;
+    for (const Point<3> &x : expected)
+      moved = moved && std::any_of(mesh.vertices.begin(),
+                                   mesh.vertices.end(),
+                                   [&](const Point<3> &v) {
+                                     return v.distance(x) < 1e-14;
+                                   });
+    verdict(moved, "an instance is moved, then turned");
+    verdict(n_faces(mesh, "under") == 1 && n_faces(mesh, "front") == 1,
+            "sets and surfaces of instances and of the assembly",
+            counts(mesh));
+    q.part               = "both";
+    q.boundaries         = "all: named First.skin, Second.skin";
+    const CoarseMesh all = mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
+    verdict(all.cells.size() == 2 && n_faces(all, "all") == 8,
+            "a set of two instances, surfaces without sides",
+            counts(all));
+    refused("a number in an included file",
+            file_parameters(write_file(
+              "includes.inp",
+              "*INCLUDE, INPUT=" +
+                write_file("wrong.inc", "*NODE\n1, 0, 0, 0\n2, 0, y, 0\n") +
+                "\n")),
+            "has in line 3 of '" + temporary_file("wrong.inc") +
+              "' 'y', which is no number");
+    refused("a file that includes itself",
+            file_parameters(write_file("itself.inp",
+                                       "*INCLUDE, INPUT=" +
+                                         temporary_file("itself.inp") + "\n")),
+            "an *INCLUDE within 16 others");
+    refused("an instance of no part",
+            file_parameters(
+              write_file("no_part.inp", "*INSTANCE, NAME=i, PART=q\n")),
+            "an *INSTANCE of the part 'q'");
+  }
+
   void
   check_refusals()
   {
@@ -156,5 +218,6 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_deck(false);
   check_deck(true);
+  check_instances();
   check_refusals();
 }

@@ -73,6 +73,12 @@ main()
              "part.msh",
              {});
   check_error("no mesh for info", {"--info"}, {"a mesh or CAD file is needed"});
+  check_line("import",
+             {"--import", "deck.inp", "--output", "there"},
+             Action::import,
+             "deck.inp",
+             {"Output/Directory=there"});
+  check_error("no deck", {"--import"}, {"an input deck is needed"});
   check_line("examples", {"--example"}, Action::example, "", {});
   check_line(
     "an example", {"--example", "patch"}, Action::example, "patch", {});
@@ -117,6 +123,7 @@ main()
                                    "--parameters[=json]",
                                    "--boundaries",
                                    "--pairs",
+                                   "--import",
                                    "--example",
                                    "--help",
                                    "--version"})

@@ -4,7 +4,6 @@
 #include <mortise/base/quotes.h>
 #include <mortise/output/whole_file.h>
 #include <mortise/problem/import/deck_import.h>
-#include <mortise/problem/mesh_request.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -99,12 +98,28 @@ namespace mortise
               keyword.compare(keyword.size() - 8, 8, " SECTION") == 0);
     }
 
+    /// What a step may be in place of *STATIC.
+    const std::set<std::string> other_procedures = {
+      "*BUCKLE",
+      "*COMPLEX FREQUENCY",
+      "*COUPLED TEMPERATURE-DISPLACEMENT",
+      "*DYNAMIC",
+      "*FREQUENCY",
+      "*HEAT TRANSFER",
+      "*MODAL DYNAMIC",
+      "*STEADY STATE DYNAMICS",
+      "*UNCOUPLED TEMPERATURE-DISPLACEMENT",
+      "*VISCO"};
+
     void
     tell_unknown_keywords(const InpDeck &deck, ImportRemarks &remarks)
     {
       for (const InpBlock &block : deck.blocks)
-        if (known_keywords.count(block.keyword) == 0 &&
-            !is_told_elsewhere(block.keyword))
+        if (other_procedures.count(block.keyword) > 0)
+          remarks.approximated(block.place,
+                               block.keyword + ": the step is static");
+        else if (known_keywords.count(block.keyword) == 0 &&
+                 !is_told_elsewhere(block.keyword))
           remarks.left_out(block.place, block.keyword);
     }
 
@@ -188,9 +203,14 @@ namespace mortise
         if (block.keyword == "*NODE PRINT" || block.keyword == "*NODE FILE" ||
             block.keyword == "*NODE OUTPUT")
           {
+            const bool displacements = std::any_of(
+              block.lines.begin(), block.lines.end(), [](const InpLine &line) {
+                return std::count(line.words.begin(), line.words.end(), "U") >
+                       0;
+              });
             const auto nodes =
               deck.find_nodes(block.option("NSET"), block.instance);
-            if (nodes.size() > 10)
+            if (nodes.size() > 10 || !displacements)
               continue;
             for (const unsigned int node : nodes)
               if (!bodies.bodies_of_node[node].empty())
@@ -271,12 +291,18 @@ namespace mortise
               const Settings    &settings,
               const MPI_Comm     comm)
   {
-    const MeshRequest request = read_mesh_request("--import", file, settings);
-    const std::filesystem::path directory = request.directory;
-    std::string                 problem;
-    ImportFiles                 files;
-    std::vector<std::string>    told;
-    const unsigned int          rank = Utilities::MPI::this_mpi_process(comm);
+    std::filesystem::path directory = ".";
+    const std::string     output    = "Output/Directory=";
+    for (const std::string &setting : settings)
+      if (setting.compare(0, output.size(), output) == 0)
+        directory = setting.substr(output.size());
+      else
+        throw InputError("--import with --set " + in_quotes(setting) +
+                         "; allowed: --output; settings are for the scene");
+    std::string              problem;
+    ImportFiles              files;
+    std::vector<std::string> told;
+    const unsigned int       rank = Utilities::MPI::this_mpi_process(comm);
     if (rank == 0)
       try
         {

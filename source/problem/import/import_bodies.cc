@@ -78,11 +78,14 @@ namespace mortise
         if (deck.elements[e].dimension != 3)
           section_of[e] = nullptr;
       }
+    if (solids == 0)
+      throw InputError("--import: the deck has no solid elements; allowed: "
+                       "C3D4, C3D6, C3D8, C3D10, C3D15 and C3D20");
     if (without == solids)
       throw InputError(
         "--import: the deck has " + std::to_string(solids) +
         " solid elements, and none of them has a *SOLID SECTION with a "
-        "material; allowed: solids (C3D4 to C3D20R) with their sections");
+        "material; allowed: solids with their sections");
     if (without > 0)
       remarks.left_out("elements",
                        std::to_string(without) +

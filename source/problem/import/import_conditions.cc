@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 namespace mortise
@@ -24,19 +25,31 @@ namespace mortise
     for (std::size_t step = 0; step < steps.steps.size(); ++step)
       for (const InpBlock *block : steps.steps[step].blocks)
         read(*block, step + 1);
+    tell_released_supports();
     find_supports();
     find_forces();
+    // elements that are loaded alike, each in a line of its own, are one load
+    std::map<std::string, std::pair<ImportCondition, std::set<unsigned int>>>
+      loads;
     for (const auto &entry : face_loads)
       {
-        FaceLoad load = entry.second;
-        if (load.faces.empty())
-          continue;
-        const ImportHistory history = steps.history(load.changes);
-        load.condition.value[0]     = history;
+        const FaceLoad     &load      = entry.second;
+        ImportCondition     condition = load.condition;
+        const ImportHistory history   = steps.history(load.changes);
+        condition.value[0]            = history;
+        std::string key = condition.name + ":" + history.text() + ":";
         for (std::size_t d = 0; d < load.direction.size(); ++d)
-          load.condition.traction[d] = history.times(load.direction[d]);
-        add(load.condition, load.faces);
+          {
+            condition.traction[d] = history.times(load.direction[d]);
+            key += number_text(load.direction[d]) + ",";
+          }
+        auto &found = loads[key];
+        found.first = condition;
+        found.second.insert(load.faces.begin(), load.faces.end());
       }
+    for (const auto &entry : loads)
+      add(entry.second.first,
+          {entry.second.second.begin(), entry.second.second.end()});
   }
 
   void
@@ -77,8 +90,7 @@ namespace mortise
       return remarks.left_out(block.place,
                               "*BOUNDARY, TYPE=" + block.option("TYPE"));
     if (upper(block.option("OP")) == "NEW")
-      remarks.approximated(block.place,
-                           "*BOUNDARY, OP=NEW: supports of earlier steps stay");
+      new_supports.emplace(step, block.place);
     static const std::map<std::string, std::vector<unsigned int>> kinds = {
       {"ENCASTRE", {0, 1, 2}},
       {"PINNED", {0, 1, 2}},
@@ -147,6 +159,132 @@ namespace mortise
         }
   }
 
+  void
+  ImportConditions::tell_released_supports()
+  {
+    for (const auto &[step, place] : new_supports)
+      for (const auto &component : supported)
+        if (std::any_of(component.begin(),
+                        component.end(),
+                        [step = step](const auto &entry) {
+                          const auto &changes = entry.second.changes;
+                          return changes.front().step < step &&
+                                 std::none_of(changes.begin(),
+                                              changes.end(),
+                                              [step](const auto &change) {
+                                                return change.step == step;
+                                              });
+                        }))
+          remarks.approximated(place,
+                               "*BOUNDARY, OP=NEW: what was held before stays "
+                               "held");
+  }
+
+  namespace
+  {
+    /// The normal, of length 1.
+    Tensor<1, 3>
+    normal_of(const InpDeck &deck, const ImportFace &face)
+    {
+      const auto  &x             = deck.nodes;
+      const auto  &n             = face.nodes;
+      const bool   quadrilateral = face.n_vertices == 4;
+      Tensor<1, 3> normal =
+        cross_product_3d(x[n[quadrilateral ? 2 : 1]] - x[n[0]],
+                         x[n[quadrilateral ? 3 : 2]] -
+                           x[n[quadrilateral ? 1 : 0]]);
+      return normal / normal.norm();
+    }
+
+    /// Numbers of the patches that @p faces form where they meet smoothly.
+    std::vector<unsigned int>
+    smooth_patches_of(const ImportBodies              &bodies,
+                      const std::vector<unsigned int> &faces)
+    {
+      std::vector<unsigned int> root(faces.size());
+      std::iota(root.begin(), root.end(), 0u);
+      const auto find = [&](unsigned int i) {
+        while (root[i] != i)
+          i = root[i] = root[root[i]];
+        return i;
+      };
+      std::map<std::pair<unsigned int, unsigned int>, std::vector<unsigned int>>
+        at_edge;
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        {
+          const ImportFace &face = bodies.faces[faces[i]];
+          for (unsigned int v = 0; v < face.n_vertices; ++v)
+            at_edge[std::minmax(
+                      {face.nodes[v], face.nodes[(v + 1) % face.n_vertices]})]
+              .push_back(i);
+        }
+      const double smooth = std::cos(40. * numbers::PI / 180.);
+      for (const auto &edge : at_edge)
+        for (const unsigned int i : edge.second)
+          for (const unsigned int j : edge.second)
+            if (bodies.faces[faces[i]].body == bodies.faces[faces[j]].body &&
+                normal_of(bodies.deck, bodies.faces[faces[i]]) *
+                    normal_of(bodies.deck, bodies.faces[faces[j]]) >
+                  smooth)
+              root[std::max(find(i), find(j))] = std::min(find(i), find(j));
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        root[i] = find(i);
+      return root;
+    }
+  } // namespace
+
+  /// Faces of which all nodes are held in a component, without those that only
+  /// connect others, as the sides of a plate with one layer of elements whose
+  /// bottom and top are held: their nodes are all on faces along the component,
+  /// or on other patches with nodes of their own.
+  std::vector<unsigned int>
+  ImportConditions::held_faces(const unsigned int component) const
+  {
+    std::vector<unsigned int> faces, across;
+    std::set<unsigned int>    all, of_across;
+    for (unsigned int f = 0; f < bodies.faces.size(); ++f)
+      if (const auto &nodes = bodies.faces[f].nodes;
+          std::all_of(nodes.begin(), nodes.end(), [&](const auto n) {
+            return supported[component].count(n) > 0;
+          }))
+        {
+          faces.push_back(f);
+          all.insert(nodes.begin(), nodes.end());
+          if (std::fabs(normal_of(deck, bodies.faces[f])[component]) > 0.9)
+            {
+              across.push_back(f);
+              of_across.insert(nodes.begin(), nodes.end());
+            }
+        }
+    if (of_across == all)
+      return across;
+    const auto patch = smooth_patches_of(bodies, faces);
+    std::map<unsigned int, std::set<unsigned int>> patches_of_node;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (const unsigned int node : bodies.faces[faces[i]].nodes)
+        patches_of_node[node].insert(patch[i]);
+    std::set<unsigned int> needed;
+    for (const auto &entry : patches_of_node)
+      if (entry.second.size() == 1)
+        needed.insert(*entry.second.begin());
+    std::set<unsigned int> not_needed;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      not_needed.insert(patch[i]);
+    for (const unsigned int p : needed)
+      not_needed.erase(p);
+    for (const auto &entry : patches_of_node)
+      if (std::none_of(entry.second.begin(),
+                       entry.second.end(),
+                       [&](const auto p) { return needed.count(p) > 0; }))
+        for (const unsigned int p : entry.second)
+          not_needed.erase(p);
+    std::vector<unsigned int> result;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      if (not_needed.count(patch[i]) == 0)
+        result.push_back(faces[i]);
+    return result;
+  }
+
   /// A face has the prescribed displacement that all of its nodes have.
   void
   ImportConditions::find_supports()
@@ -157,14 +295,10 @@ namespace mortise
       {
         std::set<unsigned int>    covered;
         std::vector<unsigned int> mixed;
-        for (unsigned int f = 0; f < bodies.faces.size(); ++f)
+        for (const unsigned int f : held_faces(c))
           {
-            const auto &nodes = bodies.faces[f].nodes;
-            if (!std::all_of(nodes.begin(), nodes.end(), [&](const auto n) {
-                  return supported[c].count(n) > 0;
-                }))
-              continue;
-            const auto axes_at = [&](const unsigned int node) {
+            const auto &nodes   = bodies.faces[f].nodes;
+            const auto  axes_at = [&](const unsigned int node) {
               const auto axes = local_axes.find(node);
               return axes == local_axes.end() ? "" : axes->second;
             };

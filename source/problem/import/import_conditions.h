@@ -136,6 +136,10 @@ namespace mortise
     read_temperatures(const InpBlock &block, std::size_t step);
 
     void
+    tell_released_supports();
+    std::vector<unsigned int>
+    held_faces(unsigned int component) const;
+    void
     find_supports();
     void
     find_affine_supports(unsigned int                     component,
@@ -149,15 +153,15 @@ namespace mortise
     area_of(const std::vector<unsigned int> &faces) const;
     std::string
     temperature_text(unsigned int body) const;
-    std::string
-    place_of(const InpBlock &block) const;
 
     ImportBodies      &bodies;
     const InpDeck     &deck;
     const ImportSteps &steps;
     ImportRemarks     &remarks;
 
-    std::vector<Source>                              sources;
+    std::vector<Source> sources;
+    std::map<std::size_t, std::string>
+      new_supports; ///< places of OP=NEW, by step
     std::array<std::map<unsigned int, Supported>, 3> supported; ///< by node
     std::map<unsigned int, std::string> local_axes; ///< of *TRANSFORM, by node
     std::array<std::map<unsigned int, NodalForce>, 3> nodal_forces;

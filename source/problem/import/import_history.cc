@@ -52,7 +52,7 @@ namespace mortise
   std::string
   ImportHistory::text() const
   {
-    if (points.empty())
+    if (is_zero())
       return "0";
     std::string text, end;
     for (std::size_t i = 1; i < points.size(); ++i)
@@ -64,8 +64,10 @@ namespace mortise
         const double slope = (v1 - v0) / (t1 - t0);
         std::string  piece = v0 == 0. && slope != 0. ? "" : number_text(v0);
         if (slope != 0.)
-          piece += (piece.empty() ? "" : " + ") + number_text(slope) + "*" +
-                   (t0 == 0. ? "t" : "(t - " + number_text(t0) + ")");
+          piece += (piece.empty() ? number_text(slope) :
+                                    (slope < 0. ? " - " : " + ") +
+                                      number_text(std::fabs(slope))) +
+                   (t0 == 0. ? "*t" : "*(t - " + number_text(t0) + ")");
         // the last piece needs no end where the last step has its end
         if (i + 1 < points.size())
           {
@@ -112,7 +114,7 @@ namespace mortise
         if (coefficients[i].is_zero())
           continue;
         const std::string factor = coefficients[i].text();
-        const bool is_sum = factor.find(" + ") != std::string::npos && i > 0;
+        const bool is_sum = factor.find(' ') != std::string::npos && i > 0;
         text += (text.empty() ? "" : " + ") +
                 (is_sum ? "(" + factor + ")" : factor) +
                 (i > 0 ? "*" + variables[i] : "");
@@ -125,8 +127,8 @@ namespace mortise
              const std::vector<double>   &values)
   {
     const double n = points.size();
-    Tensor<1, 3>      centre;
-    double            mean = 0., scale = 0.;
+    Tensor<1, 3> centre;
+    double       mean = 0., scale = 0.;
     for (std::size_t i = 0; i < points.size(); ++i)
       {
         centre += Tensor<1, 3>(points[i]) / n;

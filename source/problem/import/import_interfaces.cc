@@ -44,7 +44,9 @@ namespace mortise
       else if (block->keyword == "*CLEARANCE")
         clearances.push_back(block);
     for (const InpBlock *block : steps.model)
-      if (block->keyword == "*TIE" || block->keyword == "*CONTACT PAIR")
+      if (block->has("CYCLIC SYMMETRY") || block->has("MULTISCALE"))
+        remarks.left_out(block->place, "*TIE of cyclic symmetry or of scales");
+      else if (block->keyword == "*TIE" || block->keyword == "*CONTACT PAIR")
         for (const InpLine &line : block->lines)
           {
             const bool tie = block->keyword == "*TIE";

@@ -29,6 +29,14 @@ namespace mortise
         changes.push_back({step, 0., ""});
     }
 
+    /// A load with the same key replaces that of an earlier step.
+    std::string
+    key_of(const InpBlock &block, const InpLine &line)
+    {
+      return block.keyword + ":" + block.instance + ":" + upper(line.words[0]) +
+             ":" + upper(line.words[1]);
+    }
+
     double
     number_at(const InpLine &line, const std::size_t i)
     {
@@ -42,10 +50,13 @@ namespace mortise
   {
     if (replaces_all(block))
       {
-        for (auto &load : face_loads)
-          end_load(load.second.changes, step);
-        for (auto &load : body_forces)
-          end_load(load.second.changes, step);
+        const auto end_all = [&](auto &loads) {
+          for (auto &[key, load] : loads)
+            if (key.compare(0, block.keyword.size(), block.keyword) == 0)
+              end_load(load.changes, step);
+        };
+        end_all(face_loads);
+        end_all(body_forces);
       }
     for (const InpLine &line : block.lines)
       {
@@ -72,8 +83,7 @@ namespace mortise
                                    const std::size_t step)
   {
     const std::string kind = upper(line.words[1]);
-    FaceLoad         &load =
-      face_loads[block.instance + ":" + upper(line.words[0]) + ":" + kind];
+    FaceLoad         &load = face_loads[key_of(block, line)];
     if (load.changes.empty())
       {
         std::vector<InpSide> sides;
@@ -125,9 +135,8 @@ namespace mortise
                                     const InpLine    &line,
                                     const std::size_t step)
   {
-    const std::string kind = upper(line.words[1]);
-    BodyForce        &force =
-      body_forces[block.instance + ":" + upper(line.words[0]) + ":" + kind];
+    const std::string kind  = upper(line.words[1]);
+    BodyForce        &force = body_forces[key_of(block, line)];
     if (force.changes.empty())
       {
         auto elements = deck.find_elements(line.words[0], block.instance);
@@ -382,6 +391,14 @@ namespace mortise
         const BodyForce &force = entry.second;
         if (std::count(force.bodies.begin(), force.bodies.end(), body) == 0)
           continue;
+        if (density == 0. && force.kind.size() > 2)
+          {
+            remarks.left_out(force.place,
+                             force.kind + " on the body " +
+                               bodies.bodies[body].name +
+                               ", which has no *DENSITY");
+            continue;
+          }
         acts              = true;
         const auto  scale = steps.history(force.changes);
         const auto &x     = force.numbers;

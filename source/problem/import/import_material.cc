@@ -2,6 +2,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <deal.II/physics/transformations.h>
+
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 
@@ -417,9 +419,17 @@ namespace mortise
           axes = axes_of(Tensor<1, 3>({x[0], x[1], x[2]}),
                          Tensor<1, 3>({x[3], x[4], x[5]}));
         // a further rotation about one of these axes
-        if (block.lines.size() > 1)
-          remarks.left_out(block.lines[1].place,
-                           "the further rotation of *ORIENTATION");
+        const auto turn = block.lines.size() > 1 ?
+                            import_numbers(block.lines[1]) :
+                            std::vector<double>();
+        if (turn.size() > 1 && turn[0] >= 1. && turn[0] < 4.)
+          {
+            Point<3> axis;
+            axis[static_cast<unsigned int>(turn[0]) - 1] = 1.;
+            axes =
+              axes * Physics::Transformations::Rotations::rotation_matrix_3d(
+                       axis, turn[1] * numbers::PI / 180.);
+          }
       }
     if (const auto turned = deck.rotations.find(section.instance);
         turned != deck.rotations.end())
