@@ -24,7 +24,7 @@ HOLDS = {
     "problem": "parameters, discretisation, steps, run",
 }
 # of problem, in this order; what lies directly in it comes last
-SUB_ROOMS = ["input", "support", "scene", "contact", "results", "adaptive"]
+SUB_ROOMS = ["input", "import", "support", "scene", "contact", "results", "adaptive"]
 STAGES = [  # of a run: name, room that does most of it
     ("parameters", "problem"),
     ("meshes", "body"),

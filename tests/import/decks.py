@@ -210,7 +210,7 @@ def neo_hooke():
     """A block of rubber is shortened by a quarter, free at its sides."""
     mesh, end, text = bar("C3D20R", (2, 1, 1))
     text += material("RUBBER", "*HYPERELASTIC, NEO HOOKE", "0.5, 0.1") + section("BODY", "RUBBER") + symmetric(mesh, "x", "y", "z")
-    text += step("*BOUNDARY\nNEND, 1, 1, -0.75", "*NODE PRINT, NSET=NEND, TOTALS=ONLY\nRF\n", options=", NLGEOM", static="*STATIC\n0.25, 1.")
+    text += step("*BOUNDARY\nNEND, 1, , -0.75", "*NODE PRINT, NSET=NEND, TOTALS=ONLY\nRF\n", options=", NLGEOM", static="*STATIC\n0.25, 1.")
     return Deck(text, [("NEND", 0, -1.013652, 3e-4, "CalculiX"), ("node_%d" % end, 1, 0.1472661, 1e-3, "CalculiX")], told=("*HYPERELASTIC",))
 
 

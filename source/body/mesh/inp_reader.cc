@@ -178,6 +178,9 @@ namespace mortise
           };
         copy_places(part.node_places, deck.node_places, first_node);
         copy_places(part.element_places, deck.element_places, first_element);
+        deck.passed_over.insert(deck.passed_over.end(),
+                                part.passed_over.begin(),
+                                part.passed_over.end());
         for (InpBlock block : part.blocks)
           {
             block.instance = name;
@@ -205,12 +208,11 @@ namespace mortise
         set_key            = "";
         if (!options["ELSET"].empty())
           set_key = named(options["ELSET"], "");
-        if (pattern.dimension == 3)
-          return;
-        at->blocks.emplace_back(); // for those who want to know what is left
-        at->blocks.back().keyword = keyword;
-        at->blocks.back().options = options;
-        at->blocks.back().place   = place();
+        if (!set_key.empty())
+          at->element_sets[set_key];
+        if (pattern.dimension != 3)
+          at->passed_over.push_back(
+            {{place(), "*ELEMENT, TYPE=" + pattern.type}});
       }
 
       /// The key of a set, whose name as it is written is kept.
@@ -259,10 +261,7 @@ namespace mortise
         if (keyword == "*NODE")
           read_node();
         else if (keyword == "*ELEMENT")
-          {
-            if (pattern.dimension > 0)
-              read_element();
-          }
+          pattern.dimension > 0 ? read_element() : pass_over_element();
         else if (keyword == "*ELSET" || keyword == "*NSET")
           read_set();
         else if (keyword == "*SURFACE")
@@ -281,14 +280,14 @@ namespace mortise
       read_node()
       {
         const auto words = words_of(line);
-        if (words.size() < 3)
-          fail("a node with fewer than two coordinates");
+        if (words.size() < 2)
+          fail("a node without coordinates");
         if (options.count("SYSTEM") > 0 && upper(options["SYSTEM"]) != "R")
           fail("nodes in another system; allowed: x, y, z");
         Point<3> x;
         for (unsigned int d = 0; d + 1 < std::min<std::size_t>(4, words.size());
              ++d)
-          x[d] = real(words[d + 1]);
+          x[d] = words[d + 1].empty() ? 0. : real(words[d + 1]);
         const long tag = integer(words[0]);
         if (!at->node_places[""].emplace(tag, at->nodes.size()).second)
           fail("the node " + words[0] + " a second time");
@@ -328,6 +327,17 @@ namespace mortise
         if (!set_key.empty())
           at->element_sets[set_key].insert(at->elements.size());
         at->elements.push_back(element);
+      }
+
+      /// Of an element that is none here its number is kept, and what may be
+      /// one: how many lines it has is not known.
+      void
+      pass_over_element()
+      {
+        const auto words = words_of(line);
+        if (!words.empty())
+          if (const auto tag = integer_if_any(words[0]))
+            other_elements.insert(*tag);
       }
 
       /// Members of a set: numbers, or other sets.
@@ -380,12 +390,19 @@ namespace mortise
             return;
           }
         const std::string side = words.size() > 1 ? upper(words[1]) : "";
+        if (side == "SPOS" || side == "SNEG")
+          return at->passed_over.push_back({{place(), "a side of *SURFACE"}});
         if (!side.empty() && (side.size() != 2 || side[0] != 'S' ||
                               side[1] < '1' || side[1] > '6'))
           fail("a surface " + in_quotes(line, '\'') +
                "; allowed: an element or a set of elements, and S1 to S6");
         const auto members = at->find_elements(words[0], "");
-        if (members.empty() && integer_if_any(words[0]))
+        const auto tag     = integer_if_any(words[0]);
+        if (members.empty() &&
+            (tag ? other_elements.count(*tag) > 0 :
+                   at->find_set(at->element_sets, words[0], "") != nullptr))
+          return at->passed_over.push_back({{place(), "a side of *SURFACE"}});
+        if (members.empty() && tag)
           fail("the element " + words[0] + ", which the file does not have");
         if (members.empty())
           fail("the set " + in_quotes(words[0], '\'') +
@@ -396,8 +413,12 @@ namespace mortise
         for (const unsigned int e : members)
           {
             const InpElement &element = at->elements[e];
-            if (element.dimension != 3 ||
-                face >= inp_shape(element.n_vertices).faces.size())
+            if (element.dimension != 3)
+              {
+                at->passed_over.push_back({{place(), "a side of *SURFACE"}});
+                continue;
+              }
+            if (face >= inp_shape(element.n_vertices).faces.size())
               fail("the side " + side + " of element " +
                    std::to_string(element.tag) + ", which has none such");
             at->surfaces[set_key].push_back({e, face});
@@ -433,6 +454,7 @@ namespace mortise
       InpDeck                          deck, instance;
       InpDeck                         *at = &deck; ///< what is read
       std::map<std::string, InpDeck>   parts;
+      std::set<long>                   other_elements;
       std::string                      instance_name;
       std::vector<std::vector<double>> motion; ///< lines of *INSTANCE
     };

@@ -258,10 +258,15 @@ namespace mortise
           const std::string mesh = stem + "_" + body.name + ".inp";
           files.emplace_back(mesh, mesh_text(bodies, b, deck_name));
           names += (names.empty() ? "" : ", ") + body.name;
+          const std::string temperature =
+            of_body[b].expansion == 0. ? "" : conditions.temperature_text(b);
+          if (!temperature.empty())
+            of_body[b].text += "    set Thermal expansion = " +
+                               number_text(of_body[b].expansion) + "\n";
           sections +=
             "\nsubsection Body " + body.name +
             "\n  set Degree = " + degree_text(deck, body, of_body[b]) + "\n" +
-            conditions.body_text(b, of_body[b]) +
+            conditions.body_text(b, of_body[b]) + temperature +
             "  subsection Mesh\n    set Source = file\n    set File   "
             "= " +
             mesh + "\n  end\n  subsection Material\n" + of_body[b].text +

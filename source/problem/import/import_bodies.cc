@@ -59,17 +59,12 @@ namespace mortise
         for (const unsigned int e :
              deck.find_elements(block.option("ELSET"), block.instance))
           section_of[e] = &block;
-      else if (block.keyword == "*ELEMENT" ||
-               (block.keyword.size() > 8 &&
-                block.keyword.compare(block.keyword.size() - 8,
-                                      8,
-                                      " SECTION") == 0))
-        remarks.left_out(block.place,
-                         block.keyword +
-                           (block.has("TYPE") ?
-                              ", TYPE=" + block.option("TYPE") :
-                              "") +
-                           ", which is no solid");
+      else if (block.keyword.size() > 8 &&
+               block.keyword.compare(block.keyword.size() - 8, 8, " SECTION") ==
+                 0)
+        remarks.left_out(block.place, block.keyword + ", which is no solid");
+    for (const auto &[place, what] : deck.passed_over)
+      remarks.left_out(place, what + ", which is no solid");
     std::size_t without = 0, solids = 0;
     for (std::size_t e = 0; e < section_of.size(); ++e)
       {

@@ -55,6 +55,19 @@ namespace mortise
   void
   ImportConditions::read(const InpBlock &block, const std::size_t step)
   {
+    static const std::set<std::string> acting = {
+      "*BOUNDARY", "*CLOAD", "*DLOAD", "*DSLOAD", "*TEMPERATURE"};
+    if (acting.count(block.keyword) > 0)
+      {
+        for (const std::string option :
+             {"USER", "SUBMODEL", "FIXED", "FILE", "CYCLIC MODE"})
+          if (block.has(option))
+            return remarks.left_out(block.place, block.keyword + ", " + option);
+        for (const std::string option : {"TIME DELAY", "SECTOR"})
+          if (block.has(option))
+            remarks.left_out(block.place,
+                             "the option " + option + " of " + block.keyword);
+      }
     if (block.keyword == "*TRANSFORM")
       {
         const auto x = block.lines.empty() ? std::vector<double>() :
@@ -110,9 +123,9 @@ namespace mortise
         auto numbers = import_numbers(line, 1);
         if (numbers.empty())
           continue;
-        if (numbers.size() < 2 || numbers[1] == 0.)
-          numbers.resize(2, 0.), numbers[1] = numbers[0];
         numbers.resize(3);
+        if (numbers[1] == 0.) // "12, 3" and "12, 3, , 0.1"
+          numbers[1] = numbers[0];
         if (numbers[1] > 3.)
           remarks.left_out(line.place, "*BOUNDARY of the components beyond 3");
         for (unsigned int c = numbers[0] - 1.; c < std::min(numbers[1], 3.);
@@ -468,6 +481,24 @@ namespace mortise
           }
         face.boundary = name;
       }
+    for (ImportFace &face : bodies.faces)
+      if (taken[face.body].empty())
+        face.boundary = "skin";
+  }
+
+  bool
+  ImportConditions::is_held(const unsigned int body,
+                            const unsigned int condition) const
+  {
+    return std::any_of(
+      bodies.faces.begin(), bodies.faces.end(), [&](const ImportFace &face) {
+        const auto &all = face.conditions;
+        return face.body == body &&
+               std::count(all.begin(), all.end(), condition) > 0 &&
+               std::any_of(all.begin(), all.end(), [&](const auto c) {
+                 return conditions[c].kind == ImportCondition::Kind::support;
+               });
+      });
   }
 
   namespace
@@ -638,8 +669,6 @@ namespace mortise
   ImportConditions::read_temperatures(const InpBlock   &block,
                                       const std::size_t step)
   {
-    if (block.has("FILE"))
-      return remarks.left_out(block.place, block.keyword + " of a file");
     for (const InpLine &line : block.lines)
       {
         const auto numbers = import_numbers(line, 1);
@@ -657,7 +686,7 @@ namespace mortise
       }
   }
 
-  /// The temperature above the initial one, where it is linear in x, y, z.
+  /// Where it is linear in x, y, z.
   std::string
   ImportConditions::temperature_text(const unsigned int body) const
   {

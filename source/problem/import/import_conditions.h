@@ -57,7 +57,8 @@ namespace mortise
     add(const ImportCondition           &condition,
         const std::vector<unsigned int> &faces);
 
-    /// Give each face with conditions the name of its boundary.
+    /// Give each face with conditions the name of its boundary; all faces of a
+    /// body without any are "skin".
     void
     name_boundaries();
 
@@ -65,9 +66,17 @@ namespace mortise
     std::string
     boundaries_text(unsigned int body) const;
 
-    /// Body force and Temperature of a body.
+    /// Body force of a body.
     std::string
     body_text(unsigned int body, const ImportMaterial &material) const;
+
+    /// Temperature of a body above the initial one, empty if there is none.
+    std::string
+    temperature_text(unsigned int body) const;
+
+    /// Is a face of a body with a condition held in any component?
+    bool
+    is_held(unsigned int body, unsigned int condition) const;
 
     /// "body: boundary, boundary" of the faces with a condition, empty if it
     /// has none.
@@ -151,8 +160,6 @@ namespace mortise
               const std::set<unsigned int>    &nodes);
     ImportForce
     area_of(const std::vector<unsigned int> &faces) const;
-    std::string
-    temperature_text(unsigned int body) const;
 
     ImportBodies      &bodies;
     const InpDeck     &deck;

@@ -261,12 +261,22 @@ namespace mortise
   ImportInterfaces::text() const
   {
     std::string text;
-    for (const Interface &interface : interfaces)
-      text += "\nsubsection Interface " + interface.name + "\n  set Slave  = " +
-              conditions.side_text(interface.slave_body, interface.slave) +
-              "\n  set Master = " +
-              conditions.side_text(interface.master_body, interface.master) +
-              "\n" + interface.lines + "end\n";
+    for (const auto &[name, slave_body, master_body, slave, master, lines] :
+         interfaces)
+      {
+        std::string sides[2] = {conditions.side_text(slave_body, slave),
+                                conditions.side_text(master_body, master)};
+        // the slave must not be held
+        if (conditions.is_held(slave_body, slave) &&
+            !conditions.is_held(master_body, master))
+          {
+            std::swap(sides[0], sides[1]);
+            sides[0] += "  # exchanged: the slave of the deck is held";
+          }
+        text += "\nsubsection Interface " + name +
+                "\n  set Slave  = " + sides[0] +
+                "\n  set Master = " + sides[1] + "\n" + lines + "end\n";
+      }
     return text;
   }
 } // namespace mortise

@@ -433,6 +433,6 @@ namespace mortise
     if (acts)
       text = "  set Body force = " + affine_text(sum[0]) + "; " +
              affine_text(sum[1]) + "; " + affine_text(sum[2]) + "\n";
-    return material.expansion == 0. ? text : text + temperature_text(body);
+    return text;
   }
 } // namespace mortise

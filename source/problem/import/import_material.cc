@@ -170,9 +170,6 @@ namespace mortise
         result.needs_more = result.nonlinear || poisson > 0.4;
         if (result.density > 0.)
           result.text += entry("Density", number_text(result.density));
-        if (result.expansion != 0.)
-          result.text +=
-            entry("Thermal expansion", number_text(result.expansion));
         return result;
       }
 

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <functional>
 #include <map>
 #include <set>
@@ -76,6 +77,9 @@ namespace mortise
     Named<std::set<unsigned int>> node_surfaces; ///< TYPE=NODE
     Named<std::string>            names;         ///< as first written
     std::vector<InpBlock>         blocks; ///< all other keywords, in order
+    /// Elements that are neither solids nor flat, surfaces of others than
+    /// solids: their places, and what they are.
+    std::vector<std::array<std::string, 2>> passed_over;
 
     /// Indices by the numbers of the file, and rotations, by instance; "": of
     /// what is in none.
