@@ -82,6 +82,7 @@ namespace mortise
       sources.back().in.str(content);
     }
 
+    /// At least one, which may be empty.
     static std::vector<std::string>
     words_of(const std::string &text)
     {
@@ -89,8 +90,10 @@ namespace mortise
       std::istringstream       parts(text);
       for (std::string part; std::getline(parts, part, ',');)
         words.push_back(dealii::Utilities::trim(part));
-      while (!words.empty() && words.back().empty())
+      while (words.size() > 1 && words.back().empty())
         words.pop_back();
+      if (words.empty())
+        words.emplace_back();
       return words;
     }
 

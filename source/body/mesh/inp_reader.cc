@@ -334,10 +334,8 @@ namespace mortise
       void
       pass_over_element()
       {
-        const auto words = words_of(line);
-        if (!words.empty())
-          if (const auto tag = integer_if_any(words[0]))
-            other_elements.insert(*tag);
+        if (const auto tag = integer_if_any(words_of(line)[0]))
+          other_elements.insert(*tag);
       }
 
       /// Members of a set: numbers, or other sets.
@@ -368,6 +366,8 @@ namespace mortise
           }
         for (const std::string &word : words)
           {
+            if (word.empty())
+              continue;
             const auto more = of_elements ? at->find_elements(word, scope) :
                                             at->find_nodes(word, scope);
             if (more.empty() && !integer_if_any(word) &&

@@ -121,9 +121,12 @@ namespace mortise
             continue;
           }
         auto numbers = import_numbers(line, 1);
-        if (numbers.empty())
-          continue;
         numbers.resize(3);
+        if (numbers[0] < 1.)
+          {
+            remarks.left_out(line.place, "*BOUNDARY without a component");
+            continue;
+          }
         if (numbers[1] == 0.) // "12, 3" and "12, 3, , 0.1"
           numbers[1] = numbers[0];
         if (numbers[1] > 3.)

@@ -301,9 +301,13 @@ namespace mortise
         place                     = block.place;
         auto              x       = import_numbers(block.lines[0]);
         const std::string n_terms = block.option("N");
-        const std::size_t n       = n_terms.empty() ? 1 : std::stoul(n_terms);
-        const bool        ogden   = block.has("OGDEN"),
-                   mooney         = block.has("MOONEY-RIVLIN") ||
+        const std::size_t n =
+          n_terms.empty() ?
+            1 :
+            static_cast<std::size_t>(std::max(
+              1., std::min(6., import_numbers({{n_terms}, block.place})[0])));
+        const bool ogden  = block.has("OGDEN"),
+                   mooney = block.has("MOONEY-RIVLIN") ||
                             (block.has("POLYNOMIAL") && n == 1);
         if ((!ogden && !mooney && !block.has("NEO HOOKE")) ||
             block.has("TEST DATA INPUT"))

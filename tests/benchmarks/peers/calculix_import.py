@@ -82,8 +82,9 @@ def bodies_at(folder):
     for file in glob.glob(folder + "/*_*.inp"):
         with open(file, encoding="utf-8") as f:
             text = f.read()
+        body = text.split(maxsplit=3)[2]  # ** body NAME
         for x in places(text).values():
-            if found.setdefault(x, text.split()[2]) != text.split()[2]:
+            if found.setdefault(x, body) != body:
                 several.add(x)
     return {x: body for x, body in found.items() if x not in several}
 
