@@ -1,6 +1,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/numbers.h>
 #include <mortise/base/quotes.h>
+#include <mortise/body/mesh/inp_shapes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@
 #include <set>
 #include <utility>
 
-#include "inp_shapes.h"
 #include "mesh_file_parts.h"
 #include "vtu_arrays.h"
 
