@@ -19,10 +19,10 @@ namespace mortise
   struct DirichletCondition
   {
     dealii::types::boundary_id boundary = dealii::numbers::invalid_boundary_id;
-    std::optional<Segment>     segment{}; ///< in place of a boundary
-    std::array<bool, dim>      fixed{};   ///< components it prescribes
+    std::array<bool, dim>      fixed{}; ///< components it prescribes
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
-      value; ///< a length; empty: zero
+                           value;     ///< a length; empty: zero
+    std::optional<Segment> segment{}; ///< in place of a boundary
   };
 
   /// A prescribed traction on one boundary.
