@@ -240,7 +240,7 @@ namespace mortise
         sums            = error_sums(bodies, cells);
         memory.estimate = memory.upper_estimate =
           std::hypot(sums.of_quantity(), memory.error_of_rest) / unit;
-        correction = sums.with_sign + memory.error_of_rest;
+        correction = sums.correction + memory.error_of_rest;
         return;
       }
     set_errors(bodies, residuals, cells);
@@ -321,7 +321,8 @@ namespace mortise
       {
         result.emplace_back();
         for (const CellState &state : of_body)
-          result.back().push_back(factor * part(state.history.error));
+          result.back().push_back(
+            factor * part(state.history.raised * state.history.error));
       }
     return result;
   }

@@ -307,9 +307,11 @@ namespace mortise
                   states,
                   [&](const Body &body, const auto &, CellState &state) {
                     const unsigned int b = body.index;
-                    if (state.history.is_refined &&
-                        by_residual[b] > by_changes[b] && by_changes[b] > 0.)
-                      state.history.error *= by_residual[b] / by_changes[b];
+                    if (state.history.is_refined)
+                      state.history.raised =
+                        by_changes[b] > 0. ?
+                          std::max(1., by_residual[b] / by_changes[b]) :
+                          1.;
                   });
   }
 
@@ -341,9 +343,14 @@ namespace mortise
                   states,
                   [&](const Body &body, const auto &, const CellState &state) {
                     const CellHistory &history = state.history;
-                    const double       part    = history.share * history.error;
-                    sums.by_body[body.index] += history.error;
-                    sums.with_sign += history.n_rises == 0 ? part : 0.;
+                    const double       error   = history.raised * history.error;
+                    const double       part    = history.share * error;
+                    sums.by_body[body.index] += error;
+                    if (history.n_rises == 0)
+                      {
+                        sums.with_sign += part;
+                        sums.correction += history.share * history.error;
+                      }
                     if (history.n_rises > 0)
                       {
                         const double change = history.share * history.change;
@@ -356,7 +363,8 @@ namespace mortise
                   });
     const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
     Utilities::MPI::sum(sums.by_body, comm, sums.by_body);
-    for (double *number : {&sums.with_sign, &sums.by_lot, &sums.largest})
+    for (double *number :
+         {&sums.with_sign, &sums.correction, &sums.by_lot, &sums.largest})
       *number = Utilities::MPI::sum(*number, comm);
     sums.all    = std::accumulate(sums.by_body.begin(), sums.by_body.end(), 0.);
     sums.by_lot = std::sqrt(sums.by_lot);

@@ -30,6 +30,9 @@ namespace mortise
     /// Contribution of the last refinement to the quantity over the change:
     /// between -1 and 1 except in mixed form. One without a quantity.
     double share = 1.;
+    /// By which residuals call for a larger error of a quantity than changes;
+    /// one without a quantity.
+    double raised = 1.;
     /// The change of the last rise of the degree by that of the rise before it,
     /// of cells that have not been split since; before the first rise one.
     double fall = 1.;
@@ -49,7 +52,7 @@ namespace mortise
     serialize(Archive &archive, const unsigned int)
     {
       archive &degree &change &error &ratio &by_residual &violation
-        &at_free_boundary &share &fall &least_ratio &n_rises &is_refined
+        &at_free_boundary &share &raised &fall &least_ratio &n_rises &is_refined
           &is_split &is_new;
     }
   };

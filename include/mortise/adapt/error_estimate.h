@@ -66,7 +66,9 @@ namespace mortise
   {
     double all       = 0.; ///< as if all had one sign
     double with_sign = 0.; ///< of cells that were cut
-    double by_lot    = 0.; ///< of all, the root of the sum of squares
+    /// The same as changes tell it, before it is raised.
+    double correction = 0.;
+    double by_lot     = 0.; ///< of all, the root of the sum of squares
     /// Of cells that rose, if these go on with the signs that they had.
     double              like_before = 0.;
     double              largest     = 0.; ///< largest_error(), as all
@@ -84,7 +86,7 @@ namespace mortise
   inline double
   largest_error(const CellHistory &history)
   {
-    return history.error + history.violation;
+    return history.raised * history.error + history.violation;
   }
 
   /// Collective.

@@ -37,6 +37,7 @@ namespace mortise
                                   history.by_residual,
                                   history.violation,
                                   history.share,
+                                  history.raised,
                                   history.fall,
                                   history.least_ratio})
         check(number);
