@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/body/mesh/mesh_findings.h>
 #include <mortise/problem/input/formulation.h>
 #include <mortise/problem/input/interface_law.h>
