@@ -18,6 +18,10 @@ namespace mortise
     /// cells.
     constexpr double least_ratio_of_rest = 0.1;
 
+    /// Of a quantity: by which an estimate may be too small after one
+    /// refinement, which does not show how changes fall.
+    constexpr double uncertainty_of_one_change = 10.;
+
     /// Is there a cell on which nothing is known of the error? Collective.
     bool
     has_unknown_errors(const Bodies &bodies, const CellStates &states)
@@ -164,12 +168,10 @@ namespace mortise
       memory.value = dual->value;
     ++memory.n_cycles;
     // of cells as of all
-    const double upper_estimate = memory.upper_estimate.value_or(0.);
-    memory.allowed_error =
-      upper_estimate > 0. ?
-        sums.largest /
-          (dual ? upper_estimate : upper_estimate * upper_estimate) :
-        0.;
+    const double of_all  = dual ?
+                             memory.estimate.value_or(0.) :
+                             std::pow(memory.upper_estimate.value_or(0.), 2);
+    memory.allowed_error = of_all > 0. ? sums.largest / of_all : 0.;
   }
 
   void
@@ -237,9 +239,12 @@ namespace mortise
     if (dual)
       {
         raise_errors(bodies, residuals, energy_changes, cells);
-        sums            = error_sums(bodies, cells);
-        memory.estimate = memory.upper_estimate =
+        sums = error_sums(bodies, cells);
+        memory.estimate =
           std::hypot(sums.of_quantity(), memory.error_of_rest) / unit;
+        memory.upper_estimate =
+          *memory.estimate *
+          (memory.n_estimates > 1 ? 1. : uncertainty_of_one_change);
         correction = sums.correction + memory.error_of_rest;
         return;
       }
