@@ -188,6 +188,12 @@ namespace mortise
       return given.orthotropic;
     }
 
+    Material
+    make_rigid(const MaterialParameters &, const bool, const Where &)
+    {
+      return LinearElastic{1., 0., false};
+    }
+
     /// A constant of laws, and whether it is not at its default.
     struct Constant
     {
@@ -236,6 +242,8 @@ namespace mortise
                            });
       }
     };
+
+    constexpr const char *rigid = "rigid";
 
     const std::vector<Entry> laws = {
       {"linear elastic",
@@ -286,7 +294,8 @@ namespace mortise
         "Saturation stress",
         "Saturation exponent",
         "Kinematic hardening modulus",
-        "Hardening table"}}};
+        "Hardening table"}},
+      {rigid, make_rigid, true, false, false, {}}};
 
     const Entry *
     find(const std::string &name)
@@ -356,10 +365,16 @@ namespace mortise
   }
 
   bool
+  is_rigid(const MaterialParameters &parameters)
+  {
+    return parameters.law == rigid;
+  }
+
+  bool
   is_linear(const MaterialParameters &parameters)
   {
     return (parameters.law == "linear elastic" ||
-            parameters.law == "orthotropic") &&
+            parameters.law == "orthotropic" || is_rigid(parameters)) &&
            !is_finite(parameters);
   }
 

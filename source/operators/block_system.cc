@@ -103,9 +103,11 @@ namespace mortise
   }
 
   void
-  BlockSystem::apply_to_constrained(const Vector &u, SystemVector &rhs) const
+  BlockSystem::apply_to_constrained(const Vector &u,
+                                    SystemVector &rhs,
+                                    Vector       *forces) const
   {
-    bulk->apply_to_constrained(u, rhs);
+    bulk->apply_to_constrained(u, rhs, forces);
     if (owned_multiplier.size() > 0)
       constraint.vmult_free(rhs.multiplier, u);
   }

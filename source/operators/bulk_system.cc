@@ -223,10 +223,14 @@ namespace mortise
   }
 
   void
-  BulkSystem::apply_to_constrained(const Vector &u, SystemVector &rhs) const
+  BulkSystem::apply_to_constrained(const Vector &u,
+                                   SystemVector &rhs,
+                                   Vector       *forces) const
   {
     const Vector values(u), zero(rhs.pressure);
     apply_free(rhs.displacement, rhs.pressure, values, zero);
+    if (forces != nullptr)
+      *forces = rhs.displacement;
     stiffness->clear_constrained(rhs.displacement);
   }
 

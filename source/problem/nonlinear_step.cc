@@ -47,11 +47,11 @@ namespace mortise
   NonlinearStep::NonlinearStep(const RunContext &run,
                                Discretisation   &discretisation,
                                LinearSolver     &solver,
-                               Preloads         &preloads)
+                               GlobalUnknowns   &unknowns)
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
-    , preloads(preloads)
+    , unknowns(unknowns)
     , may_yield(
         std::any_of(discretisation.bodies().begin(),
                     discretisation.bodies().end(),
@@ -88,6 +88,20 @@ namespace mortise
     for (const unsigned int i : prescribed)
       x.displacement.local_element(i) =
         load->prescribed_at_nodes.local_element(i);
+  }
+
+  void
+  NonlinearStep::settle(SystemVector &x)
+  {
+    /// Of displacements: boundaries that move so little alone do not spoil
+    /// cells.
+    constexpr double small = 1e-6;
+    for (const unsigned int i : hanging)
+      x.displacement.local_element(i) = 0.;
+    unknowns.settle(*load);
+    if (rest_of_prescribed(x).linfty_norm() <
+        small * x.displacement.linfty_norm())
+      set_prescribed(x);
   }
 
   SystemVector
@@ -173,9 +187,28 @@ namespace mortise
       }
     if (r.multiplier.size() > 0)
       add_interfaces(x);
+    if (unknowns.has_motions())
+      take_forces(x);
     for (const unsigned int i : system.bulk->levels().front().constrained)
       r.displacement.local_element(i) = 0.;
     return true;
+  }
+
+  void
+  NonlinearStep::take_forces(const SystemVector &x)
+  {
+    const BulkSystem           &bulk = *discretisation.linear_system().bulk;
+    GlobalUnknowns::NodalForces forces{load->external,
+                                       response.forces,
+                                       response.forces};
+    if (load->follower_pressures)
+      forces.external +=
+        bulk.forces_of(*load->follower_pressures, x.displacement);
+    forces.of_multipliers = 0.;
+    if (r.multiplier.size() > 0)
+      discretisation.linear_system().constraint.Tvmult_add_free(
+        forces.of_multipliers, x.multiplier);
+    unknowns.take_forces(forces);
   }
 
   double
@@ -204,7 +237,7 @@ namespace mortise
         (!linearised_at && contact != nullptr))
       size = std::max(size, 2. * tolerance);
     if (along == nullptr)
-      size = std::max(size, preloads.lack(x));
+      size = std::max(size, unknowns.lack(x, reference));
     balanced = size <= tolerance;
     if (along != nullptr)
       size = std::max(size, arc->rest(x.displacement));

@@ -70,8 +70,8 @@ namespace mortise
       }
     discretisation.pair(discretisation.solutions(without_prescribed, x), moved);
     discretisation.set_gaps(*data, *load);
-    preloads.pair_again();
-    preloads.add_shortenings(*load);
+    unknowns.pair_again();
+    unknowns.add_shortenings(*load);
     norm = std::make_unique<ScaledResidual>(discretisation.linear_system());
     paired_at = displacement;
   }
@@ -80,7 +80,7 @@ namespace mortise
   NonlinearStep::begin_contact(const std::optional<ContactRecords> &known)
   {
     auto next = std::make_unique<ContactStep>(
-      run, discretisation, solver, preloads, known);
+      run, discretisation, solver, unknowns, known);
     if (linearised_at)
       next->take_preconditioner(*contact);
     *of_scene = std::move(next);
@@ -198,6 +198,7 @@ namespace mortise
     const auto   again       = [&](const std::string &how) {
       run.log.line("    again " + how);
       x = start;
+      unknowns.go_back(*load);
       begin_iterations();
       const NewtonReport tried = report;
       report                   = improve_with_pairs(last, false, x);

@@ -42,7 +42,7 @@ namespace mortise
     linearised_at = x;
     if (follows() && has_force_stiffness)
       discretisation.add_force_stiffness(x.multiplier);
-    preloads.system_changed();
+    unknowns.system_changed();
     if (!refresh)
       return;
     shows_flow = !elastic && may_yield;
@@ -111,8 +111,15 @@ namespace mortise
         linear.rhs.pressure = r.pressure;
         linear.rhs.pressure += products.pressure;
       }
-    SystemVector       solution = free_part(x); // from the iterate
-    const SystemVector start    = solution;
+    SystemVector solution = free_part(x); // from the iterate
+    if (unknowns.has_motions())
+      {
+        SystemVector without = system.zero_vector();
+        without.displacement = solution.displacement;
+        without.pressure     = x.pressure;
+        unknowns.count_from(without);
+      }
+    const SystemVector start = solution;
     // of slender bodies stiffness times displacement is far more than forces
     const double part     = std::min(1., reference / norm->norm(linear.rhs));
     const double accuracy = accuracy_of_contact(part);
@@ -134,15 +141,20 @@ namespace mortise
     if (!report.converged && accuracy > least)
       again(least);
     x = solution;
-    x.displacement += load->prescribed_at_nodes;
+    x.displacement += linear.prescribed_at_nodes;
     for (const unsigned int i : hanging)
       x.displacement.local_element(i) = 0.;
-    load->rhs.multiplier = linear.rhs.multiplier; // with its shortenings
-    last_iterations      = contact->linear_iterations();
-    report.iterations    = last_iterations; // of all sets
-    stays                = report.converged && last_iterations == 0;
-    violates             = contact->violates_friction();
-    least_cost           = 0.; // preconditioners see each state
+    // with the global unknowns
+    load->rhs.multiplier      = linear.rhs.multiplier;
+    load->prescribed          = linear.prescribed;
+    load->prescribed_at_nodes = linear.prescribed_at_nodes;
+    if (unknowns.has_motions())
+      settle(x);
+    last_iterations   = contact->linear_iterations();
+    report.iterations = last_iterations; // of all sets
+    stays             = report.converged && last_iterations == 0;
+    violates          = contact->violates_friction();
+    least_cost        = 0.; // preconditioners see each state
     if (!report.converged)
       why = "contact does not converge";
     return report;
@@ -184,11 +196,13 @@ namespace mortise
     SolveReport  report = along != nullptr ? solve_bordered(x, rest, dx) :
                                              solve_tangent(lifted(r, rest), dx);
     if (along == nullptr)
-      preloads.complete_increment(x, *load, dx, report);
+      unknowns.complete_increment(x, rest, *load, dx, report);
     else if (report.converged)
       set_time(x.time + dx.time);
     add_scaled(x, 1., dx);
     set_prescribed(x);
+    if (unknowns.has_motions())
+      settle(x);
     last_iterations = report.iterations;
     if (!report.converged)
       why = "the linear solver does not converge";

@@ -35,7 +35,8 @@ namespace mortise
         {"run", run.dump(-1, ' ', false, Json::error_handler_t::replace)},
         {"contact status",
          to_bytes(checkpoint.state.contact.value_or(ContactRecords()))},
-        {"shortenings", to_bytes(checkpoint.state.shortenings)}};
+        {"shortenings", to_bytes(checkpoint.state.shortenings)},
+        {"motions", to_bytes(checkpoint.state.motions)}};
     if (!checkpoint.adaptivity.empty())
       result["adaptivity"] = checkpoint.adaptivity;
     return result;
@@ -128,12 +129,16 @@ namespace mortise
     State &state      = checkpoint.state;
     state.contact     = file.get<ContactRecords>("contact status");
     state.shortenings = file.get<std::vector<double>>("shortenings");
+    state.motions     = file.get<std::vector<double>>("motions");
     if (file.has("adaptivity"))
       checkpoint.adaptivity = file.read("adaptivity");
-    if (!state.contact->is_finite() ||
-        !std::all_of(state.shortenings.begin(),
-                     state.shortenings.end(),
-                     [](const double x) { return std::isfinite(x); }))
+    const auto are_finite = [](const std::vector<double> &numbers) {
+      return std::all_of(numbers.begin(), numbers.end(), [](const double x) {
+        return std::isfinite(x);
+      });
+    };
+    if (!state.contact->is_finite() || !are_finite(state.shortenings) ||
+        !are_finite(state.motions))
       throw file.damaged("it has values that are not finite");
     return checkpoint;
   }

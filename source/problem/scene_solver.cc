@@ -43,17 +43,17 @@ namespace mortise
     , linear_solver(
         make_linear_solver(discretisation.linear_system(),
                            solver_options(run, discretisation, cycle)))
-    , preloads(run, discretisation, *linear_solver)
+    , unknowns(run, discretisation, *linear_solver)
     , run(run)
   {
     if (discretisation.interfaces().have_contact())
       contact = std::make_unique<ContactStep>(
-        run, discretisation, *linear_solver, preloads, last.contact);
+        run, discretisation, *linear_solver, unknowns, last.contact);
     if (discretisation.linear_system().bulk->is_nonlinear())
       nonlinear = std::make_unique<NonlinearStep>(run,
                                                   discretisation,
                                                   *linear_solver,
-                                                  preloads);
+                                                  unknowns);
     // a factorisation gives one of many answers and does not tell
     if (discretisation.choice().method == SolverMethod::direct)
       discretisation.check_multipliers();
@@ -69,13 +69,13 @@ namespace mortise
       {
         discretisation.pair(values.solutions);
         discretisation.set_gaps(data, load);
-        preloads.pair_again();
+        unknowns.pair_again();
         if (contact)
           contact = std::make_unique<ContactStep>(
-            run, discretisation, *linear_solver, preloads, state.contact);
+            run, discretisation, *linear_solver, unknowns, state.contact);
       }
+    unknowns.begin(data, state, load);
     state.solution = discretisation.system_vector(values, load);
-    preloads.begin(data, state.shortenings, load);
     if (contact)
       contact->resume(load, state.solution);
     if (nonlinear)
@@ -93,7 +93,7 @@ namespace mortise
     SolvedState  result;
     State       &next   = result.state;
     SolveReport &report = result.report;
-    preloads.begin(data, last.shortenings, load);
+    unknowns.begin(data, last, load);
     if (nonlinear)
       {
         State first;
@@ -115,11 +115,11 @@ namespace mortise
           contact->accept(load, next.solution);
       }
     else if (start.empty())
-      report = preloads.solve(false, load, next.solution);
+      report = unknowns.solve(false, load, next.solution);
     else
       {
         next.solution = discretisation.system_vector(start, load);
-        report        = preloads.solve(true, load, next.solution);
+        report        = unknowns.solve(true, load, next.solution);
       }
     complete(result);
     return result;
@@ -166,7 +166,7 @@ namespace mortise
                             ""));
     if (contact)
       next.contact = contact->records();
-    next.shortenings = preloads.shortenings_by_interface();
+    unknowns.store(next);
   }
 
   void
@@ -192,8 +192,22 @@ namespace mortise
         summary.solver->linear_iterations =
           nonlinear->report().linear_iterations;
       }
-    for (unsigned int j = 0; j < preloads.interfaces().size(); ++j)
-      summary.interfaces[preloads.interfaces()[j]].preload = {
-        preloads.force(j, solution), preloads.shortenings()[j]};
+    for (unsigned int j = 0; j < unknowns.interfaces().size(); ++j)
+      summary.interfaces[unknowns.interfaces()[j]].preload = {
+        unknowns.force(j, solution), unknowns.shortening(j)};
+    const std::vector<Motion> motions = unknowns.motions();
+    for (unsigned int p = 0; p < motions.size(); ++p)
+      {
+        const RigidPart  &part = unknowns.rigid_parts()[p];
+        RigidPartSummary &of   = summary.rigid_parts.emplace_back();
+        of.name                = part.name;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            of.point.push_back(part.where.centre[c]);
+            of.displacement.push_back(motions[p][c]);
+            of.rotation.push_back(180. / numbers::PI * motions[p][dim + c] /
+                                  part.where.size);
+          }
+      }
   }
 } // namespace mortise

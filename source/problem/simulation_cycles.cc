@@ -18,7 +18,7 @@ namespace mortise
         dual = solve_dual(context,
                           equations->discretisation,
                           *equations->linear_solver,
-                          equations->preloads,
+                          equations->unknowns,
                           *quantity,
                           evaluation.solutions(),
                           evaluation.forces(),

@@ -122,7 +122,8 @@ namespace mortise
     if (!writes || adaptivity || steps.output_due() || summary.steps.empty())
       return; // states of other meshes were written with their cycles
     const SceneData data(context.parameters, state.time, field_checks);
-    const SceneLoad load = equations->discretisation.load(data);
+    SceneLoad       load = equations->discretisation.load(data);
+    equations->unknowns.begin(data, state, load);
     output.write_fields(steps,
                         state.time,
                         evaluate(data, load),

@@ -201,7 +201,7 @@ main(int argc, char **argv)
   {
     const CheckpointFile file(checkpoint_file_name(directory), MPI_COMM_WORLD);
     for (const std::string name :
-         {"run", "contact status", "shortenings", "adaptivity"})
+         {"run", "contact status", "shortenings", "motions", "adaptivity"})
       good[name] = file.read(name);
   }
   verdict("a run of cycles left its state", good["adaptivity"].size() < 100, 0);
@@ -225,7 +225,8 @@ main(int argc, char **argv)
   check_message("a section that nobody knows is skipped",
                 message_of_restart(),
                 {"(no error)"});
-  for (const std::string name : {"contact status", "run", "shortenings"})
+  for (const std::string name :
+       {"contact status", "run", "shortenings", "motions"})
     {
       Sections fewer = good;
       fewer.erase(name);
@@ -245,6 +246,11 @@ main(int argc, char **argv)
           with("shortenings",
                to_bytes(std::vector<double>{
                  std::numeric_limits<double>::quiet_NaN()})),
+          "values that are not finite");
+  refused("a motion that is not finite",
+          with("motions",
+               to_bytes(
+                 std::vector<double>{std::numeric_limits<double>::infinity()})),
           "values that are not finite");
   const std::string cycles = good["adaptivity"];
   refused("half of the cycles",

@@ -3,7 +3,7 @@
 // share of the force in the quantity, and estimates of bolted scenes are right.
 // The same on any number of ranks.
 #include <mortise/problem/adaptive/dual_solution.h>
-#include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/contact/global_unknowns.h>
 
 #include "active_sets.h"
 #include "scene.h"
@@ -111,27 +111,28 @@ namespace
     const auto solver =
       make_linear_solver(discretisation.linear_system(), options);
     solver->update();
-    Preloads     preloads(scene.context(), discretisation, *solver);
-    SceneLoad    load = scene.load;
-    SystemVector x;
-    preloads.begin(scene.fields(), {}, load);
-    preloads.solve(false, load, x);
+    GlobalUnknowns unknowns(scene.context(), discretisation, *solver);
+    SceneLoad      load = scene.load;
+    SystemVector   x;
+    unknowns.begin(scene.fields(), {}, load);
+    unknowns.solve(false, load, x);
     const auto derivative =
       mortise::derivative(*given_quantity(scene.given()),
                           discretisation,
                           discretisation.solutions(load, x));
-    SystemVector rhs    = derivative.rhs, z;
-    SolveReport  report = solver->solve(rhs, z);
-    preloads.release(rhs, z, report);
+    SceneLoad    dual{derivative.rhs, {}};
+    SystemVector z;
+    SolveReport  report = solver->solve(dual.rhs, z);
+    unknowns.release(unknowns.zero(), dual, z, report);
     verdict(what + ": converged", report.converged ? 0. : 1., 0.);
     const double value = product(derivative.rhs, x),
-                 share = product(rhs, x) - value; // - e F
+                 share = product(dual.rhs, x) - value; // - e F
     verdict(what + ": by loads and force",
             std::fabs((product(z, scene.load.rhs) - share) / value - 1.),
             1e-8);
     verdict(what + ": the force is seen", 1e-3, std::fabs(share / value));
     verdict(what + ": no force of the dual's",
-            std::fabs(preloads.force(0, z) * preloads.shortenings()[0] / value),
+            std::fabs(unknowns.force(0, z) * unknowns.shortening(0) / value),
             1e-9);
   }
 

@@ -72,6 +72,25 @@ expect_itself() {
   expect "$@"
 }
 
+# rigid parts
+bar=$prm/../tests/field/bar_with_a_rigid_end.prm
+expect 2 'Coupling.*one of: distributing, rigid' "$bar" --set 'Body bar/Boundary zmax/Coupling=stiff'
+expect 2 'Displacement.*along the normal with Coupling = rigid' "$bar" --set 'Body bar/Boundary zmax/Displacement=normal: 0'
+expect 2 'Displacement axes.*with Coupling = rigid' "$bar" --set 'Body bar/Boundary zmax/Displacement axes=0, 0, 30'
+expect 2 'Normal stiffness.*with Coupling = rigid' "$bar" --set 'Body bar/Boundary zmax/Normal stiffness=1'
+expect 2 'Rotation.*expression in t' "$bar" --set 'Body bar/Boundary zmax/Rotation=x; 0; 0'
+expect 2 'Rotation.*"-".*expression in t' "$bar" --set 'Body bar/Boundary zmin/Rotation=-; 0; 0'
+expect 2 'share vertices.*bar: zmax' "$bar" --set 'Body bar/Boundary ymin/Coupling=rigid'
+expect 2 'bar: zmax differ by .* from the nearest rigid motion' "$bar" --set 'Body bar/Boundary ymin/Displacement=-, 0, 0.1*x^2'
+expect 2 'arc length with a rigid part' "$bar" --set 'Body bar/Material/Law=neo-Hookean' --set 'Steps/Control=arc length' --set 'Steps/Step=0.5'
+expect 2 'the body bar can move freely: translation along x, translation along y, translation along z' "$bar" --set 'Body bar/Boundary zmin/Displacement='
+plate=$prm/../tests/field/column_under_a_tilting_plate.prm
+expect 2 'Slave.*body plate with Law = rigid' "$plate" --set 'Interface seat/Slave=plate: zmin' --set 'Interface seat/Master=column: zmax'
+expect 2 'Slave.*boundary zmax with Coupling = rigid' "$plate" --set 'Body column/Boundary zmax/Coupling=rigid'
+expect 2 'Young modulus.*the body has Law = rigid' "$plate" --set 'Body plate/Material/Young modulus=1'
+expect 2 'the body plate .* can move freely: translation along x' "$plate" --set 'Body plate/Boundary zmax/Displacement=-, 0, -'
+expect 2 'body plate with Law = rigid.*Displacement along the axes' "$plate" --set 'Body plate/Boundary ymin/Displacement=normal: 0'
+
 scene=$prm/patch.prm
 expect 2 'Degree' "$scene" --set 'Body lower/Degre=2'
 expect_itself 2 'Degree' "$scene" --set 'Body lower/Degre=2'

@@ -23,6 +23,9 @@ namespace mortise
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
                            value;     ///< a length; empty: zero
     std::optional<Segment> segment{}; ///< in place of a boundary
+    /// The boundary belongs to a rigid part, whose motion is an unknown; the
+    /// value is empty.
+    bool is_rigid = false;
   };
 
   /// A prescribed traction on one boundary.

@@ -47,6 +47,10 @@ namespace mortise
   bool
   is_finite(const MaterialParameters &parameters);
 
+  /// Does the body move as a rigid part?
+  bool
+  is_rigid(const MaterialParameters &parameters);
+
   /// Is the stress linear in the gradient of the displacement?
   bool
   is_linear(const MaterialParameters &parameters);
@@ -54,7 +58,8 @@ namespace mortise
   /// Throws InputError for a law that does not exist, listing those that do,
   /// for constants with which it is none, and for those of another law that are
   /// not left at their defaults; @p where is the place of a parameter of the
-  /// material by its name, for messages.
+  /// material by its name, for messages. A rigid body has a material all the
+  /// same, of any modulus, which never is strained.
   Material
   make_material(
     const MaterialParameters                                  &parameters,

@@ -155,9 +155,11 @@ namespace mortise
                 const Vector &p) const;
 
     /// Set @p rhs to the product of the system with @p u, which may be nonzero
-    /// at constrained components. Collective.
+    /// at constrained components; @p forces, if they are not null, to K u, also there. Collective.
     void
-    apply_to_constrained(const Vector &u, SystemVector &rhs) const;
+    apply_to_constrained(const Vector &u,
+                         SystemVector &rhs,
+                         Vector       *forces = nullptr) const;
 
     /// dst += B^T lambda, the forces of multipliers in directions(), as all
     /// below. Collective.

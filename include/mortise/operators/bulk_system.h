@@ -276,9 +276,12 @@ namespace mortise
     place_of_least_jacobian(const Response &response) const;
 
     /// Set displacements and pressures of @p rhs to K u, zero at constrained
-    /// components, and G u, for @p u that need not be zero there. Collective.
+    /// components, and G u, for @p u that need not be zero there; @p forces, if they are
+    /// not null, to K u, also at constrained components. Collective.
     void
-    apply_to_constrained(const Vector &u, SystemVector &rhs) const;
+    apply_to_constrained(const Vector &u,
+                         SystemVector &rhs,
+                         Vector       *forces = nullptr) const;
 
     /// int b.v + int t.v - int sigma_0 : grad v by node, also at constrained
     /// components, see for_each_loaded_cell(). @p loads: by body. Collective.

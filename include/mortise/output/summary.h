@@ -125,6 +125,15 @@ namespace mortise
     std::optional<PreloadSummary> preload; ///< if it has one
   };
 
+  /// The motion of a rigid part.
+  struct RigidPartSummary
+  {
+    std::string         name;
+    std::vector<double> point;        ///< of reference
+    std::vector<double> displacement; ///< of the point, a length
+    std::vector<double> rotation;     ///< about it, degrees
+  };
+
   /// Forces on all bodies together.
   struct EquilibriumSummary
   {
@@ -178,6 +187,7 @@ namespace mortise
     std::vector<BodySummary>          bodies;
     DofSummary                        dofs;
     std::vector<InterfaceSummary>     interfaces;
+    std::vector<RigidPartSummary>     rigid_parts;
     std::optional<SolverSummary>      solver;      ///< absent until solved
     std::optional<EquilibriumSummary> equilibrium; ///< absent until solved
     std::optional<ErrorSummary> errors; ///< absent without an exact solution

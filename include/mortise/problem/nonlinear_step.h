@@ -38,14 +38,14 @@ namespace mortise
     NonlinearStep(const RunContext &run,
                   Discretisation   &discretisation,
                   LinearSolver     &solver,
-                  Preloads         &preloads);
+                  GlobalUnknowns   &unknowns);
 
     /// Solve for @p load from @p last on and set the solution, displacement and
     /// history of @p next; those of the best iterate if the report says that
     /// Newton's method did not converge. Linear solves are as loose as the next
     /// residual allows (Eisenstat, Walker 1996). The forces of pressures on
     /// deformed faces become part of the external ones of @p load, and so do
-    /// changes of the shortenings of preloads. Collective.
+    /// changes of the shortenings of unknowns. Collective.
     /// @p data: of the time of @p load. @p contact: null, or that of the scene,
     /// without friction; each linear problem is then one of contact. Where
     /// interfaces follow the bodies it is made again with each pairing.
@@ -206,6 +206,12 @@ namespace mortise
     /// @p forces less those of what is left of prescribed displacements.
     SystemVector
     lifted(const SystemVector &forces, const Vector &rest) const;
+    /// Let global unknowns have the forces at @p x.
+    void
+    take_forces(const SystemVector &x);
+    /// The load has the motions of rigid parts, and @p x, too, up to what turns.
+    void
+    settle(SystemVector &x);
     /// Add forces of multipliers to r, and set its gaps.
     void
     add_interfaces(const SystemVector &x);
@@ -236,7 +242,7 @@ namespace mortise
     const RunContext &run;
     Discretisation   &discretisation;
     LinearSolver     &solver;
-    Preloads         &preloads;
+    GlobalUnknowns   &unknowns;
     const bool        may_yield; ///< one of the bodies
     Vector            paired_at; ///< displacement; empty: not yet
     Vector            begin;     ///< likewise, of the step

@@ -1,9 +1,9 @@
 // Solver of the steps of a scene on given meshes: discretisation, linear
-// solver, preloads and active sets of contact.
+// solver, unknowns and active sets of contact.
 #pragma once
 
 #include <mortise/problem/contact/contact_step.h>
-#include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/contact/global_unknowns.h>
 #include <mortise/problem/nonlinear_step.h>
 #include <mortise/problem/results/solved_step.h>
 #include <mortise/problem/scene/discretisation.h>
@@ -39,7 +39,7 @@ namespace mortise
     void
     resume(const SceneData &data, const SceneValues &values, State &state);
 
-    /// For @p load at the time of @p data, after @p last; shortenings of preloads
+    /// For @p load at the time of @p data, after @p last; shortenings of unknowns
     /// become part of @p load.
     /// @p start, by body, may be empty. Collective; throws InputError.
     SolvedState
@@ -100,10 +100,10 @@ namespace mortise
 
     Discretisation                discretisation;
     std::unique_ptr<LinearSolver> linear_solver;
-    Preloads                      preloads;
+    GlobalUnknowns                unknowns;
 
   private:
-    /// Check and report a solve, and add contact and preloads to its state.
+    /// Check and report a solve, and add contact and unknowns to its state.
     void
     complete(SolvedState &solved);
 

@@ -33,5 +33,8 @@ namespace mortise
     /// By interface, the shortening of its preload, a length; empty before the
     /// first step.
     std::vector<double> shortenings;
+    /// The motions of rigid parts, one after the other; empty before the first
+    /// step.
+    std::vector<double> motions;
   };
 } // namespace mortise

@@ -79,7 +79,7 @@ namespace mortise
   solve_dual(const RunContext                &run,
              Discretisation                  &discretisation,
              LinearSolver                    &solver,
-             Preloads                        &preloads,
+             GlobalUnknowns                  &unknowns,
              const Quantity                  &quantity,
              const std::vector<BodySolution> &solutions,
              const BoundaryForces            &forces,
@@ -102,7 +102,20 @@ namespace mortise
           result.report = solver.solve_from(load.rhs, z);
         }
     while (!result.report.converged && discretisation.try_as_indefinite());
-    preloads.release(load.rhs, z, result.report);
+    const auto on_motion = [&](const PrescribedValues &prescribed,
+                               const Vector           &forces) {
+      const auto *point = std::get_if<PointQuantity>(&quantity.of);
+      if (point == nullptr)
+        return functional.lift * forces;
+      const SystemVector zero = discretisation.linear_system().zero_vector();
+      const Body        &body = *discretisation.bodies()[quantity.body()];
+      return (*point_value(body,
+                           discretisation
+                             .solutions({zero, prescribed}, zero)[body.index]
+                             .displacement,
+                           point->point))[quantity.component];
+    };
+    unknowns.release(unknowns.on_motions(on_motion), load, z, result.report);
     z.displacement -= functional.lift;
     result.solutions = discretisation.solutions(load, z);
     run.timers.add("dual", result.report.solve_seconds);

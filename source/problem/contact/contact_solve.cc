@@ -46,7 +46,7 @@ namespace mortise
     else if (changes)
       solver.update_active();
     if (turns)
-      preloads.system_changed();
+      unknowns.system_changed();
   }
 
   SolveReport
@@ -92,7 +92,7 @@ namespace mortise
                         cold && sets > 1 ? loosest_energy : loose_energy :
                         SolverOptions().energy_fraction,
                       max_iterations);
-    return preloads.solve(x.displacement.size() > 0, *load, x);
+    return unknowns.solve(x.displacement.size() > 0, *load, x);
   }
 
   SolveReport
@@ -102,8 +102,8 @@ namespace mortise
     friction.apply(load->rhs);
     const Vector      applied = load->rhs.multiplier;
     const SolveReport result =
-      preloads.solve(x.displacement.size() > 0, *load, x);
-    // shortenings of preloads become part of the load
+      unknowns.solve(x.displacement.size() > 0, *load, x);
+    // shortenings of unknowns become part of the load
     load->rhs.multiplier -= applied;
     of_load.multiplier += load->rhs.multiplier;
     load->rhs = of_load;

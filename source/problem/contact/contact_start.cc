@@ -93,11 +93,11 @@ namespace mortise
       options.max_gathered = run.parameters.solver.max_gathered;
       const auto solver =
         make_linear_solver(discretisation.linear_system(), options);
-      Preloads     preloads(run, discretisation, *solver);
-      ContactStep  step(run, discretisation, *solver, preloads, start);
-      SceneLoad    load = discretisation.load(data);
-      SystemVector x;
-      preloads.begin(data, {}, load);
+      GlobalUnknowns unknowns(run, discretisation, *solver);
+      ContactStep    step(run, discretisation, *solver, unknowns, start);
+      SceneLoad      load = discretisation.load(data);
+      SystemVector   x;
+      unknowns.begin(data, State(), load);
       if (!step.solve(data, load, x, run.parameters.solver.tolerance).converged)
         return {};
       return {step.records(), step.n_sets()};

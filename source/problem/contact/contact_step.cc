@@ -66,12 +66,12 @@ namespace mortise
   ContactStep::ContactStep(const RunContext                    &run,
                            Discretisation                      &discretisation,
                            LinearSolver                        &solver,
-                           Preloads                            &preloads,
+                           GlobalUnknowns                      &unknowns,
                            const std::optional<ContactRecords> &known)
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
-    , preloads(preloads)
+    , unknowns(unknowns)
     , set(complementarity_parameters(discretisation),
           !discretisation.interfaces().have_friction(),
           run.comm)

@@ -29,7 +29,7 @@ namespace mortise
     try
       {
         discretisation.interfaces().check_no_free_motion(
-          laws, preloads.have_forces());
+          laws, unknowns.have_forces());
       }
     catch (const InputError &error)
       {
@@ -44,14 +44,15 @@ namespace mortise
     if (free_motions(friction.laws(next.active())).empty())
       return;
     SystemVector            at     = x;
+    SceneLoad               there  = *load;
     const std::vector<bool> caught = close_gaps_rigidly(
-      discretisation, preloads, *load, friction.laws(next.active()), at);
+      discretisation, unknowns, there, friction.laws(next.active()), at);
     if (!friction.empty())
       {
         std::vector<bool> touches;
         for (unsigned int i = 0; i < caught.size(); ++i)
           touches.push_back(caught[i] && !next.active()[i]);
-        friction.set_origin(discretisation.weighted_gaps(*load, at), touches);
+        friction.set_origin(discretisation.weighted_gaps(there, at), touches);
       }
     next.start_from(caught);
     if (const std::string free = free_motions(friction.laws(next.active()));
@@ -73,17 +74,19 @@ namespace mortise
     const std::string motions = free_motions(laws);
     if (motions.empty())
       return;
-    const SystemVector motion = driven_motion(
+    const DrivenMotion motion = driven_motion(
       discretisation,
-      preloads,
+      unknowns,
       *load,
-      discretisation.interfaces().free_motions(laws, preloads.have_forces()));
+      discretisation.interfaces().free_motions(laws, unknowns.have_forces()));
     const double driving =
-      work_of_loads(discretisation, preloads, *load, motion);
+      work_of_loads(discretisation, unknowns, *load, motion);
     if (!(driving > 0.))
       return;
     Vector moved(load->rhs.multiplier);
-    discretisation.linear_system().constraint.vmult(moved, motion.displacement);
+    discretisation.linear_system().constraint.vmult(moved,
+                                                    motion.x.displacement);
+    unknowns.add_gaps(motion.unknowns, -1., moved);
     used_strength = friction.resistance(moved) / driving;
     lost          = *used_strength < 1. - rounding ?
                       "Friction does not hold the bodies: they slip. " + motions :

@@ -21,17 +21,17 @@ namespace mortise
     /// Collective.
     std::array<double, 2>
     work_on(const Discretisation &discretisation,
-            const Preloads       &preloads,
+            const GlobalUnknowns &unknowns,
             const SceneLoad      &load,
-            const SystemVector   &motion)
+            const DrivenMotion   &motion)
     {
       const BlockSystem    &system = discretisation.linear_system();
       std::array<double, 2> sums{};
-      for (unsigned int i = 0; i < motion.displacement.locally_owned_size();
+      for (unsigned int i = 0; i < motion.x.displacement.locally_owned_size();
            ++i)
         {
           const double work =
-            load.rhs.displacement.begin()[i] * motion.displacement.begin()[i];
+            load.rhs.displacement.begin()[i] * motion.x.displacement.begin()[i];
           sums[0] += work;
           sums[1] += std::fabs(work);
         }
@@ -39,43 +39,50 @@ namespace mortise
                           system.communicator,
                           ArrayView<double>(sums));
       Vector opening = load.rhs.multiplier;
-      system.constraint.vmult(opening, motion.displacement);
-      const double of_preloads = preloads.work(opening);
-      return {{sums[0] + of_preloads, sums[1] + std::fabs(of_preloads)}};
+      system.constraint.vmult(opening, motion.x.displacement);
+      unknowns.add_gaps(motion.unknowns, -1., opening);
+      const double of_unknowns = unknowns.work(motion.unknowns, opening);
+      return {{sums[0] + of_unknowns, sums[1] + std::fabs(of_unknowns)}};
     }
   } // namespace
 
   double
   work_of_loads(const Discretisation &discretisation,
-                const Preloads       &preloads,
+                const GlobalUnknowns &unknowns,
                 const SceneLoad      &load,
-                const SystemVector   &motion)
+                const DrivenMotion   &motion)
   {
-    return work_on(discretisation, preloads, load, motion)[0];
+    return work_on(discretisation, unknowns, load, motion)[0];
   }
 
-  SystemVector
+  DrivenMotion
   driven_motion(const Discretisation &discretisation,
-                const Preloads       &preloads,
+                const GlobalUnknowns &unknowns,
                 const SceneLoad      &load,
                 const FreeMotions    &free)
   {
-    SystemVector result = discretisation.linear_system().zero_vector();
+    DrivenMotion result{discretisation.linear_system().zero_vector(),
+                        unknowns.zero()};
     for (unsigned int k = 0; k < free.motions.size(); ++k)
       {
-        const SystemVector motion = discretisation.rigid_motion(free, k);
+        const DrivenMotion motion{discretisation.rigid_motion(free, k),
+                                  unknowns.values_of(free, k)};
         const auto [work, size] =
-          work_on(discretisation, preloads, load, motion);
-        if (std::fabs(work) > rounding * size)
-          add_scaled(result, work, motion);
+          work_on(discretisation, unknowns, load, motion);
+        if (!(std::fabs(work) > rounding * size))
+          continue;
+        add_scaled(result.x, work, motion.x);
+        for (unsigned int j = 0; j < motion.unknowns.size(); ++j)
+          result.unknowns[j] += work * motion.unknowns[j];
+        result.size += std::fabs(work);
       }
     return result;
   }
 
   std::vector<bool>
   close_gaps_rigidly(const Discretisation &discretisation,
-                     const Preloads       &preloads,
-                     const SceneLoad      &load,
+                     const GlobalUnknowns &unknowns,
+                     SceneLoad            &load,
                      std::vector<Friction> laws,
                      SystemVector         &at)
   {
@@ -99,15 +106,19 @@ namespace mortise
       {
         const FreeMotions free =
           discretisation.interfaces().free_motions(laws,
-                                                   preloads.have_forces());
-        const SystemVector motion =
-          driven_motion(discretisation, preloads, load, free);
-        if (motion.displacement.linfty_norm() == 0.)
+                                                   unknowns.have_forces());
+        const DrivenMotion motion =
+          driven_motion(discretisation, unknowns, load, free);
+        if (motion.is_zero())
           return active();
         const std::vector<double> gaps = gaps_of(at);
-        SystemVector              unit = at;
-        add_scaled(unit, 1., motion);
-        std::vector<double> closing = gaps_of(unit);
+        const auto                move = [&](const double length) {
+          add_scaled(at, length, motion.x);
+          unknowns.add_gaps(motion.unknowns, length, load.rhs.multiplier);
+        };
+        move(1.);
+        std::vector<double> closing = gaps_of(at);
+        move(-1.);
         for (unsigned int i = 0; i < closing.size(); ++i)
           closing[i] = gaps[i] - closing[i];
         const double negligible = rounding * largest(closing);
@@ -126,7 +137,7 @@ namespace mortise
         for (unsigned int i = 0; i < gaps.size(); ++i)
           if (closes(i) && gaps[i] - length * closing[i] <= closed)
             laws[i] = Friction();
-        add_scaled(at, length, motion);
+        move(length);
       }
   }
 } // namespace mortise

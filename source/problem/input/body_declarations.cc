@@ -110,6 +110,13 @@ namespace mortise
          "length"},
         {"3 numbers"});
       section.add(
+        "Coupling",
+        boundary.coupling,
+        "How the boundary is coupled to its Reference point. distributing: a Force there is spread over the boundary, which "
+        "deforms. rigid: the boundary moves with the point as a rigid part; Displacement and Rotation are then those of "
+        "the point, and - or nothing leaves them to the equilibrium with Force, Moment and the body.",
+        Allowed::one_of({"distributing", "rigid"}));
+      section.add(
         "Moment",
         boundary.moment,
         {"Total moment on the boundary about the centroid of its area [], as a traction w x (x - centroid), "
@@ -140,7 +147,7 @@ namespace mortise
          "that Displacement prescribes (all where that is empty) []. With finite strains it is a rotation by any angle, "
          "with small ones its linear part.",
          "degrees"},
-        {"three expressions \"rx; ry; rz\" in t"});
+        {"three expressions \"rx; ry; rz\" in t; with Coupling = rigid also - for what is free"});
       section.add(
         "Normal stiffness",
         boundary.normal_stiffness,
@@ -235,10 +242,12 @@ namespace mortise
     declare_material(const ParameterSection &section,
                      MaterialParameters     &material)
     {
-      section.add("Law",
-                  material.law,
-                  "Material law; each takes its own of the constants below.",
-                  Allowed::one_of(law_names()));
+      section.add(
+        "Law",
+        material.law,
+        "Material law; each takes its own of the constants below. rigid: none; the body moves as a rigid part, "
+        "whose motion follows from the equilibrium as far as nothing prescribes it.",
+        Allowed::one_of(law_names()));
       section.add(
         "Strain",
         material.strain,

@@ -108,6 +108,17 @@ namespace mortise
                       "load: their loads have no maximum");
     if (body == parameters.bodies.end())
       return;
+    for (const BodyParameters &any : parameters.bodies)
+      if (by_length && (is_rigid(any.material) ||
+                        std::any_of(any.boundaries.begin(),
+                                    any.boundaries.end(),
+                                    [](const auto &entry) {
+                                      return entry.second.is_rigid();
+                                    })))
+        parameters.fail(control,
+                        "arc length with a rigid part of body " + any.name,
+                        "load: motions of rigid parts follow from given "
+                        "forces");
     for (const InterfaceParameters &interface : parameters.interfaces)
       {
         if (by_length && is_one_sided(interface.law))

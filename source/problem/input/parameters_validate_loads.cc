@@ -95,13 +95,15 @@ namespace mortise
     void
     check_total(const Parameters                &parameters,
                 const std::string               &path,
-                const std::optional<Components> &total)
+                const std::optional<Components> &total,
+                const bool                       may_be_free = false)
     {
       for (unsigned int d = 0; total && d < 3; ++d)
-        check_number(parameters,
-                     path,
-                     (*total)[d],
-                     std::string(", component ") + "xyz"[d]);
+        if (!may_be_free || (*total)[d] != "-")
+          check_number(parameters,
+                       path,
+                       (*total)[d],
+                       std::string(", component ") + "xyz"[d]);
     }
 
     /// The named exact solutions take the pressures of the scene: they cannot
@@ -138,11 +140,20 @@ namespace mortise
       check_components(parameters, section + "/Traction", boundary.traction);
       check_total(parameters, section + "/Force", boundary.force);
       check_total(parameters, section + "/Moment", boundary.moment);
-      check_total(parameters, section + "/Rotation", boundary.rotation);
-      if (boundary.reference_point && !boundary.force && !boundary.rotation)
+      check_total(parameters,
+                  section + "/Rotation",
+                  boundary.rotation,
+                  boundary.is_rigid());
+      if (boundary.reference_point && !boundary.force && !boundary.rotation &&
+          !boundary.is_rigid())
         parameters.fail(section + "/Reference point",
                         "a point without a Force or a Rotation",
-                        "nothing, or a Force or a Rotation");
+                        "nothing, a Force, a Rotation, or Coupling = rigid");
+      if (boundary.is_rigid())
+        check_total(parameters,
+                    section + "/Displacement",
+                    boundary.displacement,
+                    true);
       check_components(parameters,
                        section + "/Displacement",
                        boundary.displacement,

@@ -120,6 +120,58 @@ namespace mortise
           }
       boundary.displacement.reset();
     }
+    /// Its reference point alone has prescribed displacements.
+    void
+    check_rigid_boundary(const Parameters  &parameters,
+                         const unsigned int b,
+                         const std::string &name)
+    {
+      const BoundaryParameters &given =
+        parameters.bodies[b].boundaries.at(name);
+      const std::string path =
+        "Body " + parameters.bodies[b].name + "/Boundary " + name;
+      const auto refuse = [&](const std::string &what, const std::string &got) {
+        parameters.fail(path + what,
+                        got + " with Coupling = rigid",
+                        "a Displacement of the Reference point along the axes "
+                        "of the scene: three of an expression in t or -");
+      };
+      if (given.normal_displacement)
+        refuse("/Displacement", "a displacement along the normal");
+      if (given.displacement && std::count(given.displacement->begin(),
+                                           given.displacement->end(),
+                                           "exact") > 0)
+        refuse("/Displacement", in_quotes(joined(*given.displacement)));
+      if (given.displacement_axes != std::array<double, 3>())
+        refuse("/Displacement axes", "axes");
+      if (given.normal_stiffness || given.tangential_stiffness)
+        refuse("/Normal stiffness", "springs");
+    }
+
+    /// Interfaces and supports act on what deforms.
+    void
+    check_rigid_slaves(const Parameters &parameters)
+    {
+      for (const InterfaceParameters &interface : parameters.interfaces)
+        {
+          const BodyParameters &body = parameters.bodies[interface.slave.body];
+          std::string           what;
+          if (is_rigid(body.material))
+            what = "body " + body.name + " with Law = rigid";
+          for (const std::string &name : interface.slave.boundaries)
+            if (const auto found = body.boundaries.find(name);
+                found != body.boundaries.end() && found->second.is_rigid())
+              what = "boundary " + name + " with Coupling = rigid";
+          if (!what.empty())
+            parameters.fail(interface.path() +
+                              (interface.is_support ? "" : "/Slave"),
+                            what,
+                            interface.is_support ?
+                              "Displacement along the axes of the scene there" :
+                              "a side that deforms; what is rigid may be the "
+                              "Master");
+        }
+    }
   } // namespace
 
   void
@@ -133,6 +185,11 @@ namespace mortise
                               name + "/Rotation",
                             "a rotation with Displacement = normal",
                             "one of them");
+          if (boundary.is_rigid())
+            {
+              check_rigid_boundary(parameters, b, name);
+              continue;
+            }
           if (boundary.rotation && !boundary.displacement)
             boundary.displacement = Components{{"0", "0", "0"}};
           const bool rotated =
@@ -151,5 +208,6 @@ namespace mortise
               roller(parameters, b, name, *boundary.normal_displacement));
           add_foundation(parameters, b, name);
         }
+    check_rigid_slaves(parameters);
   }
 } // namespace mortise

@@ -139,7 +139,11 @@ namespace mortise
               .forces;
     borne -= solved.load.external;
     reactions = borne;
-    applied   = sum_over_nodes(solved.load.external);
+    for (const RigidPart &part :
+         solved.data.rigid_parts(discretisation.bodies()))
+      for (const RigidPart::PointLoad &load : part.loads)
+        on_rigid_parts += load.force;
+    applied = sum_over_nodes(solved.load.external) + on_rigid_parts;
 
     std::vector<Loads> on_prescribed(discretisation.bodies().size());
     bool               any_on_prescribed = false;
@@ -267,7 +271,8 @@ namespace mortise
   {
     const SideParameters &slave = discretisation.interfaces().sides()[i].slave;
     if (!discretisation.bodies()[slave.body]->material.has_finite_strain() ||
-        solved.solution.multiplier.size() == 0)
+        solved.solution.multiplier.size() == 0 ||
+        discretisation.interfaces().all()[i].is_displaced)
       return {};
     const LevelVector<double> forces =
       dirichlet.forces_of(i, solved.solution.multiplier);
@@ -299,7 +304,8 @@ namespace mortise
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       if (interfaces.sides()[i].is_support)
         supports -= dirichlet.forces_of(i, solved.solution.multiplier);
-    const Tensor<1, dim> sum = sum_over_nodes(supports);
+    // which nodes of rigid parts bear, too
+    const Tensor<1, dim> sum = sum_over_nodes(supports) - on_rigid_parts;
     return {components(applied), components(sum), components(applied + sum)};
   }
 

@@ -153,6 +153,22 @@ namespace mortise
     }
 
     void
+    print_rigid_parts(RunLog &log, const StepSummary &step)
+    {
+      if (step.rigid_parts.empty())
+        return;
+      log.line();
+      Rows rows = {
+        {"rigid part", "displacement", "of the point", "rotation, degrees"}};
+      for (const RigidPartSummary &part : step.rigid_parts)
+        rows.push_back({part.name,
+                        text_of(part.displacement),
+                        text_of(part.point),
+                        text_of(part.rotation)});
+      log.table(rows);
+    }
+
+    void
     print_equilibrium(RunLog &log, const EquilibriumSummary &equilibrium)
     {
       log.line();
@@ -222,6 +238,7 @@ namespace mortise
         print_distances(log, step);
         print_contact(log, step);
       }
+    print_rigid_parts(log, step);
     if (step.equilibrium)
       print_equilibrium(log, *step.equilibrium);
     if (step.errors)

@@ -30,7 +30,10 @@ namespace mortise
     system.owned_displacement = spaces.owned_displacement();
     if (spaces.fields.pressure.numbering.size() > 0)
       system.owned_pressure = spaces.owned_pressure();
-    check_pieces(spaces.bodies, spaces.dirichlet, run.parameters.interfaces);
+    check_pieces(spaces.bodies,
+                 spaces.dirichlet,
+                 spaces.rigid_parts,
+                 run.parameters.interfaces);
     auto first = std::make_unique<Pairing>(run, spaces);
     create_bulk();
     set_pairing(std::move(first));
@@ -156,14 +159,25 @@ namespace mortise
       }
   }
 
+  PrescribedValues
+  Discretisation::lift(const RigidPart &part, const AffineField &field) const
+  {
+    return prescribed_values(spaces, part, field);
+  }
+
+  Vector
+  Discretisation::at_nodes(const PrescribedValues &prescribed) const
+  {
+    const auto &numbering = spaces.fields.displacement.numbering;
+    return system.bulk->values_at_nodes([&](const auto body, const auto dof) {
+      return prescribed_value(prescribed, numbering(body, dof));
+    });
+  }
+
   void
   Discretisation::lift(SceneLoad &load) const
   {
-    const auto &numbering = spaces.fields.displacement.numbering;
-    Vector      values =
-      system.bulk->values_at_nodes([&](const auto body, const auto dof) {
-        return prescribed_value(load.prescribed, numbering(body, dof));
-      });
+    Vector values = at_nodes(load.prescribed);
     if (system.bulk->is_nonlinear())
       load.prescribed_at_nodes = std::move(values);
     else

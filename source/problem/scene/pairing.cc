@@ -30,7 +30,10 @@ namespace mortise
   {
     if (run.parameters.interfaces.empty())
       {
-        check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
+        check_rigid_motions(spaces.bodies,
+                            spaces.dirichlet,
+                            spaces.rigid_parts,
+                            {});
         return;
       }
     find_and_integrate();

@@ -114,6 +114,7 @@ namespace mortise
   {
     check_rigid_motions(spaces.bodies,
                         spaces.dirichlet,
+                        spaces.rigid_parts,
                         supports_of(laws, is_preloaded));
   }
 
@@ -123,6 +124,7 @@ namespace mortise
   {
     return find_free_motions(spaces.bodies,
                              spaces.dirichlet,
+                             spaces.rigid_parts,
                              supports_of(laws, is_preloaded));
   }
 

@@ -198,14 +198,18 @@ namespace mortise
           run.parameters.bodies[given.master.body].boundaries;
         const auto is_prescribed = [&](const std::string &boundary) {
           const auto side = master.find(boundary);
-          return side != master.end() && side->second.displacement;
+          return side != master.end() &&
+                 (side->second.displacement || side->second.is_rigid());
         };
-        can_exchange.back() = std::none_of(given.master.boundaries.begin(),
-                                           given.master.boundaries.end(),
-                                           is_prescribed);
+        can_exchange.back() =
+          !is_rigid(run.parameters.bodies[given.master.body].material) &&
+          std::none_of(given.master.boundaries.begin(),
+                       given.master.boundaries.end(),
+                       is_prescribed);
       }
     auto ties = tie_supports();
-    auto weak = weak_ties(spaces.bodies, spaces.dirichlet, ties, can_exchange);
+    auto weak = weak_ties(
+      spaces.bodies, spaces.dirichlet, spaces.rigid_parts, ties, can_exchange);
     for (unsigned int k = 0; k < weak.size();)
       {
         const unsigned int   i     = weak[k++];
@@ -221,8 +225,11 @@ namespace mortise
         std::swap(couplings[i], other);
         number_multipliers();
         const auto other_ties = tie_supports();
-        const auto still =
-          weak_ties(spaces.bodies, spaces.dirichlet, other_ties, can_exchange);
+        const auto still      = weak_ties(spaces.bodies,
+                                     spaces.dirichlet,
+                                     spaces.rigid_parts,
+                                     other_ties,
+                                     can_exchange);
         if (still.size() < weak.size())
           {
             run.log.line("  interface " + given.name +
@@ -245,7 +252,10 @@ namespace mortise
     for (unsigned int i = 0; i < couplings.size(); ++i)
       if (interfaces[i].preload)
         ties[i].released = mean_normal(ties[i], run.comm);
-    check_rigid_motions(spaces.bodies, spaces.dirichlet, ties);
+    check_rigid_motions(spaces.bodies,
+                        spaces.dirichlet,
+                        spaces.rigid_parts,
+                        ties);
     if (have_contact())
       {
         supports = std::move(ties);

@@ -3,6 +3,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/base/rigid_motion.h>
+#include <mortise/material/invariant_laws.h>
 #include <mortise/operators/boundary_area.h>
 #include <mortise/problem/input/formulation.h>
 #include <mortise/problem/input/interface_law.h>
@@ -24,6 +25,28 @@ namespace mortise
         body.material, is_mixed(body), [&](const std::string &name) {
           return parameters.where("Body " + body.name + "/Material/" + name);
         }));
+    // rigid bodies are no stiffer for the solver than others
+    std::optional<double> softest;
+    for (unsigned int b = 0; b < result.size(); ++b)
+      if (!is_rigid(parameters.bodies[b].material))
+        softest = std::min(softest.value_or(result[b].softest_modulus()),
+                           result[b].softest_modulus());
+    const bool turns_far = std::any_of(parameters.bodies.begin(),
+                                       parameters.bodies.end(),
+                                       [](const BodyParameters &body) {
+                                         return is_finite(body.material);
+                                       });
+    for (unsigned int b = 0; softest && b < result.size(); ++b)
+      if (is_rigid(parameters.bodies[b].material))
+        {
+          const LinearElastic law{*softest, 0., false};
+          result[b] = turns_far ?
+                        Material(law,
+                                 std::make_shared<NeoHookean>(law.lame_lambda(),
+                                                              law.lame_mu(),
+                                                              0.)) :
+                        Material(law);
+        }
     return result;
   }
 
@@ -113,22 +136,6 @@ namespace mortise
           return factor * evaluate(field, x, checks, exact_value);
         });
     }
-
-    /// A force or moment of a boundary; zero if it is not given.
-    Tensor<1, dim>
-    total(const std::optional<Components> &texts,
-          const std::string               &where,
-          const double                     time,
-          FieldChecks                     &checks)
-    {
-      Tensor<1, dim> value;
-      for (unsigned int c = 0; texts && c < dim; ++c)
-        value[c] =
-          checks(Expression((*texts)[c], where, time).value(Point<dim>()),
-                 Point<dim>(),
-                 where + ": " + in_quotes((*texts)[c]));
-      return value;
-    }
   } // namespace
 
   bool
@@ -216,17 +223,16 @@ namespace mortise
          }});
   }
 
-  namespace
+  Point<dim>
+  SceneData::reference_point(const Body               &body,
+                             const BoundaryParameters &given,
+                             const types::boundary_id  id)
   {
-    Point<dim>
-    reference_point(const BoundaryParameters &given, const BoundaryArea &area)
-    {
-      if (!given.reference_point)
-        return area.centroid;
-      const auto &point = *given.reference_point;
-      return Point<dim>(point[0], point[1], point[2]);
-    }
-  } // namespace
+    if (!given.reference_point)
+      return boundary_area(body, id).centroid;
+    const auto &point = *given.reference_point;
+    return Point<dim>(point[0], point[1], point[2]);
+  }
 
   Loads
   SceneData::loads(const Body &body) const
@@ -292,17 +298,15 @@ namespace mortise
                    });
                  }});
           }
-        if (boundary.force || boundary.moment)
+        if (!boundary.is_rigid() && (boundary.force || boundary.moment))
           {
-            const BoundaryArea   area  = boundary_area(body, id);
-            const Tensor<1, dim> force = total(
-              boundary.force, parameters.where(where + "/Force"), time, watch);
+            const BoundaryArea   area = boundary_area(body, id);
+            const Tensor<1, dim> force =
+              total(boundary.force, where + "/Force");
             const Tensor<1, dim> moment =
-              total(boundary.moment,
-                    parameters.where(where + "/Moment"),
-                    time,
-                    watch) +
-              cross_product_3d(reference_point(boundary, area) - area.centroid,
+              total(boundary.moment, where + "/Moment") +
+              cross_product_3d(reference_point(body, boundary, id) -
+                                 area.centroid,
                                force);
             const auto traction = equivalent_traction(area, force, moment);
             loads.tractions.push_back(
@@ -360,11 +364,8 @@ namespace mortise
         all_zero(components(*boundary.rotation, path, time)))
       return {};
     const Tensor<1, dim> angle =
-      numbers::PI / 180. * total(boundary.rotation, path, time, checks);
-    const Point<dim> centre =
-      reference_point(boundary,
-                      boundary.reference_point ? BoundaryArea() :
-                                                 boundary_area(body, id));
+      numbers::PI / 180. * total(boundary.rotation, where + "/Rotation");
+    const Point<dim> centre = reference_point(body, boundary, id);
     if (!is_finite(parameters.bodies[body.index].material) ||
         angle.norm() == 0.)
       return [angle, centre](const Point<dim> &x) {
@@ -385,8 +386,12 @@ namespace mortise
     const auto                      exact = solution;
     const unsigned int              b     = body.index;
     std::vector<DirichletCondition> conditions;
+    // what else is prescribed there becomes part of the motion
+    for (const RigidPart &part : rigid_parts_without_motions(body))
+      for (const types::boundary_id id : part.boundaries)
+        conditions.push_back({id, {{true, true, true}}, {}, {}, true});
     for (const auto &entry : parameters.bodies[b].boundaries)
-      if (entry.second.displacement)
+      if (entry.second.displacement && !entry.second.is_rigid())
         {
           const std::string where =
             "Body " + body.name + "/Boundary " + entry.first;

@@ -310,6 +310,7 @@ namespace mortise
         check_supports(run, *body, spaces.dirichlet.back());
         zero.push_back(homogeneous(spaces.dirichlet.back()));
       }
+    spaces.rigid_parts       = data.rigid_parts(spaces.bodies);
     spaces.constraints       = constraints_of(spaces.bodies, zero);
     SceneField &displacement = spaces.fields.displacement;
     displacement.numbering   = FieldNumbering(handlers, run.comm);
@@ -333,6 +334,27 @@ namespace mortise
     std::vector<std::vector<DirichletCondition>> dirichlet;
     for (const auto &body : spaces.bodies)
       dirichlet.push_back(data.dirichlet(*body));
+    return prescribed_values(
+      scene_constraints(spaces.fields.displacement.numbering,
+                        constraints_of(spaces.bodies, dirichlet)));
+  }
+
+  PrescribedValues
+  prescribed_values(const SceneSpaces &spaces,
+                    const RigidPart   &part,
+                    const AffineField &field)
+  {
+    std::vector<std::vector<DirichletCondition>> dirichlet;
+    for (const auto &of_body : spaces.dirichlet)
+      dirichlet.push_back(homogeneous(of_body));
+    for (DirichletCondition &condition : dirichlet[part.body])
+      if (condition.is_rigid && std::count(part.boundaries.begin(),
+                                           part.boundaries.end(),
+                                           condition.boundary) > 0)
+        condition.value = [field,
+                           centre = part.where.centre](const Point<dim> &x) {
+          return field.value + field.gradient * (x - centre);
+        };
     return prescribed_values(
       scene_constraints(spaces.fields.displacement.numbering,
                         constraints_of(spaces.bodies, dirichlet)));

@@ -107,11 +107,12 @@ namespace mortise
     std::string
     free_motions_of_part(const Body                            &body,
                          const std::vector<DirichletCondition> &dirichlet,
+                         const std::vector<RigidPart>          &parts,
                          const Extent                          &where,
                          const PartOfBody                      &part)
     {
       Resistance resistance(1);
-      resistance.add(0, support_of(body, dirichlet, where, part));
+      resistance.add(0, support_of(body, dirichlet, parts, where, part));
       std::vector<Motion> motions;
       for (const auto &vector : resistance.free_motions())
         {
@@ -127,6 +128,7 @@ namespace mortise
     public:
       Supports(const Bodies                                       &bodies,
                const std::vector<std::vector<DirichletCondition>> &dirichlet,
+               const std::vector<RigidPart>                       &parts,
                const std::vector<TieSupport>                      &ties)
         : ties(ties)
         , supported(bodies.size(), false)
@@ -137,7 +139,7 @@ namespace mortise
           {
             where.push_back(extent(*body));
             of_body.push_back(
-              support_of(*body, dirichlet[body->index], where.back()));
+              support_of(*body, dirichlet[body->index], parts, where.back()));
           }
         for (const TieSupport &tie : ties)
           {
@@ -281,6 +283,7 @@ namespace mortise
   void
   check_pieces(const Bodies                                       &bodies,
                const std::vector<std::vector<DirichletCondition>> &dirichlet,
+               const std::vector<RigidPart>                       &parts,
                const std::vector<InterfaceParameters>             &interfaces)
   {
     constexpr unsigned int max_named = 3;
@@ -298,9 +301,9 @@ namespace mortise
             if (n_tied[k] > 0)
               continue;
             const PartOfBody  part{&pieces, k};
-            const Extent      where = extent(*body, part);
-            const std::string motions =
-              free_motions_of_part(*body, dirichlet[body->index], where, part);
+            const Extent      where   = extent(*body, part);
+            const std::string motions = free_motions_of_part(
+              *body, dirichlet[body->index], parts, where, part);
             if (motions.empty() || ++n_free > max_named)
               continue;
             std::ostringstream text;
@@ -327,18 +330,20 @@ namespace mortise
   find_free_motions(
     const Bodies                                       &bodies,
     const std::vector<std::vector<DirichletCondition>> &dirichlet,
+    const std::vector<RigidPart>                       &parts,
     const std::vector<TieSupport>                      &ties)
   {
-    return Supports(bodies, dirichlet, ties).free_motions();
+    return Supports(bodies, dirichlet, parts, ties).free_motions();
   }
 
   void
   check_rigid_motions(
     const Bodies                                       &bodies,
     const std::vector<std::vector<DirichletCondition>> &dirichlet,
+    const std::vector<RigidPart>                       &parts,
     const std::vector<TieSupport>                      &ties)
   {
-    const Supports supports(bodies, dirichlet, ties);
+    const Supports supports(bodies, dirichlet, parts, ties);
     // bodies that move alike in one phrase
     std::map<std::string, std::vector<unsigned int>> moving;
     for (const auto &body : bodies)

@@ -68,26 +68,6 @@ namespace mortise
     return sum;
   }
 
-  Support
-  support_of(const Body                            &body,
-             const std::vector<DirichletCondition> &dirichlet,
-             const Extent                          &where,
-             const PartOfBody                      &part)
-  {
-    Support support(1);
-    for (const DirichletCondition &condition : dirichlet)
-      for (const auto &[cell, f] : faces_of(body, condition))
-        if (cell->is_locally_owned() && part.has(cell))
-          for (unsigned int k = 0; k < cell->face(f)->n_vertices(); ++k)
-            if (const unsigned int v = CellFace(cell, f).vertices[k];
-                prescribes_vertex(condition, cell, v))
-              for (unsigned int c = 0; c < dim; ++c)
-                if (condition.fixed[c])
-                  support.add({row_of(where, c, cell->vertex(v))});
-    support.finish(body.triangulation().get_communicator());
-    return support;
-  }
-
   // Singular values: LAPACK's iteration for eigenvectors fails now and then
   // where many eigenvalues are equal.
   Spectrum

@@ -67,6 +67,7 @@ namespace mortise
     is_weak(const TieSupport                                   &tie,
             const Bodies                                       &bodies,
             const std::vector<std::vector<DirichletCondition>> &dirichlet,
+            const std::vector<RigidPart>                       &parts,
             const MPI_Comm                                      comm)
     {
       constexpr double least_ratio = 0.02;
@@ -102,7 +103,7 @@ namespace mortise
         for (unsigned int i = 0; i < 2; ++i)
           {
             const unsigned int b = i == 0 ? tie.slave : tie.master;
-            result.add(i, support_of(*bodies[b], dirichlet[b], where));
+            result.add(i, support_of(*bodies[b], dirichlet[b], parts, where));
           }
         result.add(0, 1, resistance_of(with, where, where, comm));
         return result;
@@ -115,6 +116,7 @@ namespace mortise
   std::vector<unsigned int>
   weak_ties(const Bodies                                       &bodies,
             const std::vector<std::vector<DirichletCondition>> &dirichlet,
+            const std::vector<RigidPart>                       &parts,
             const std::vector<TieSupport>                      &ties,
             const std::vector<bool>                            &asked)
   {
@@ -123,7 +125,7 @@ namespace mortise
     for (unsigned int t = 0; t < ties.size(); ++t)
       if (asked[t] && ties[t].slave != ties[t].master &&
           ties[t].master != TieSupport::ground &&
-          is_weak(ties[t], bodies, dirichlet, comm))
+          is_weak(ties[t], bodies, dirichlet, parts, comm))
         weak.push_back(t);
     std::sort(weak.begin(), weak.end(), [&](const auto a, const auto b) {
       return ties[a].name < ties[b].name;

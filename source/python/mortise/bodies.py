@@ -79,9 +79,10 @@ class Mesh(Section):
 class Material(Section):
     """The parameters in `Body NAME/Material`."""
 
-    law: Literal["linear elastic", "orthotropic", "neo-Hookean", "Mooney-Rivlin", "Ogden", "St. Venant-Kirchhoff", "J2 plasticity"] = parameter("Law", 'linear elastic', "selection")
-    """Material law; each takes its own of the constants below. Allowed: one of: linear elastic, orthotropic, neo-Hookean,
-    Mooney-Rivlin, Ogden, St. Venant-Kirchhoff, J2 plasticity."""
+    law: Literal["linear elastic", "orthotropic", "neo-Hookean", "Mooney-Rivlin", "Ogden", "St. Venant-Kirchhoff", "J2 plasticity", "rigid"] = parameter("Law", 'linear elastic', "selection")
+    """Material law; each takes its own of the constants below. rigid: none; the body moves as a rigid part, whose motion follows
+    from the equilibrium as far as nothing prescribes it. Allowed: one of: linear elastic, orthotropic, neo-Hookean,
+    Mooney-Rivlin, Ogden, St. Venant-Kirchhoff, J2 plasticity, rigid."""
     strain: Literal["auto", "small", "finite"] = parameter("Strain", 'auto', "selection")
     """Measure of strain. small: of the undeformed body, for which rotations are small, too. finite: linear elastic and J2
     plasticity then stand on the logarithmic strain. auto: finite for hyperelastic laws, else small. Allowed: one of: auto, small,
@@ -149,6 +150,10 @@ class Boundary(Section):
     reference_point: Sequence[float] = parameter("Reference point", (), "list of reals", "length")
     """Point on which Force acts and about which Rotation turns, in the boundary or away from it [length]. A Force there is spread
     over the boundary together with its moment. Empty: the centroid of the area. Allowed: 3 numbers."""
+    coupling: Literal["distributing", "rigid"] = parameter("Coupling", 'distributing', "selection")
+    """How the boundary is coupled to its Reference point. distributing: a Force there is spread over the boundary, which deforms.
+    rigid: the boundary moves with the point as a rigid part; Displacement and Rotation are then those of the point, and - or
+    nothing leaves them to the equilibrium with Force, Moment and the body. Allowed: one of: distributing, rigid."""
     moment: Expressions = parameter("Moment", (), "list of expressions", "force times length")
     """Total moment on the boundary about the centroid of its area [force times length], as a traction w x (x - centroid), which
     has no resultant. Empty: none. Allowed: three expressions "Mx; My; Mz" in t."""
@@ -161,7 +166,7 @@ class Boundary(Section):
     rotation: Expressions = parameter("Rotation", (), "list of expressions", "degrees")
     """Prescribed rotation of the boundary about the Reference point, a vector along the axis, added to the components that
     Displacement prescribes (all where that is empty) [degrees]. With finite strains it is a rotation by any angle, with small
-    ones its linear part. Allowed: three expressions "rx; ry; rz" in t."""
+    ones its linear part. Allowed: three expressions "rx; ry; rz" in t; with Coupling = rigid also - for what is free."""
     normal_stiffness: Optional[Expression] = parameter("Normal stiffness", None, "expression", "force per volume")
     """An elastic foundation: springs between the boundary and the ground, with this traction per displacement along the normal
     [force per volume]. Empty: none. Allowed: an expression in x, y, z, positive."""

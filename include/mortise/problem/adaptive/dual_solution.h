@@ -5,7 +5,7 @@
 
 #include <mortise/adapt/cycle_errors.h>
 #include <mortise/output/functionals.h>
-#include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/contact/global_unknowns.h>
 #include <mortise/problem/input/quantity.h>
 #include <mortise/problem/results/boundary_forces.h>
 #include <mortise/solvers/linear_solver.h>
@@ -35,7 +35,7 @@ namespace mortise
              const std::vector<BodySolution> &solutions);
 
   /// Solve the dual problem of @p quantity, with the shortenings of
-  /// @p preloads, at the solution @p solutions with @p forces, where the scene is
+  /// @p unknowns, at the solution @p solutions with @p forces, where the scene is
   /// linearised; @p start may be empty. The tangent stands in place of its
   /// transpose, from which pressures on deformed faces with a free rim make it
   /// differ. Collective.
@@ -43,7 +43,7 @@ namespace mortise
   solve_dual(const RunContext                &run,
              Discretisation                  &discretisation,
              LinearSolver                    &solver,
-             Preloads                        &preloads,
+             GlobalUnknowns                  &unknowns,
              const Quantity                  &quantity,
              const std::vector<BodySolution> &solutions,
              const BoundaryForces            &forces,

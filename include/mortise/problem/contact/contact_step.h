@@ -8,7 +8,7 @@
 #include <mortise/contact/contact_records.h>
 #include <mortise/mortar/slip_origin.h>
 #include <mortise/problem/contact/friction_set.h>
-#include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/contact/global_unknowns.h>
 #include <mortise/problem/contact/solved_contact.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/scene/discretisation.h>
@@ -31,10 +31,10 @@ namespace mortise
     ContactStep(const RunContext                    &run,
                 Discretisation                      &discretisation,
                 LinearSolver                        &solver,
-                Preloads                            &preloads,
+                GlobalUnknowns                      &unknowns,
                 const std::optional<ContactRecords> &known);
 
-    /// Solve for @p load, that of @p data, of which shortenings of preloads
+    /// Solve for @p load, that of @p data, of which shortenings of unknowns
     /// become a part. The first set is extrapolated from the last steps; in the
     /// first step it is that of the constructor, or the closed gaps of the
     /// undeformed meshes; all nodes if it leaves a rigid motion free. Before
@@ -227,7 +227,7 @@ namespace mortise
     const RunContext &run;
     Discretisation   &discretisation;
     LinearSolver     &solver;
-    Preloads         &preloads;
+    GlobalUnknowns   &unknowns;
     ActiveSet         set;
     FrictionSet       friction;
     NodePositions     positions;

@@ -5,7 +5,7 @@
 #include <mortise/contact/contact_records.h>
 #include <mortise/contact/friction.h>
 #include <mortise/mortar/slip_origin.h>
-#include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/contact/global_unknowns.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/scene/scene_data.h>
 

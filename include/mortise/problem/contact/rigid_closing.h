@@ -2,39 +2,56 @@
 // leaves them free.
 #pragma once
 
-#include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/contact/global_unknowns.h>
 #include <mortise/problem/scene/discretisation.h>
 
 #include <vector>
 
 namespace mortise
 {
+  /// A motion of all bodies without strain, and the changes of global unknowns
+  /// that belong to it.
+  struct DrivenMotion
+  {
+    SystemVector        x;
+    std::vector<double> unknowns;
+
+    bool
+    is_zero() const
+    {
+      return size == 0.;
+    }
+
+    double size = 0.; ///< of the force that drives it
+  };
+
   /// The free motion that the loads drive, each motion by the force along it;
   /// zero where they drive none. Collective.
-  SystemVector
+  DrivenMotion
   driven_motion(const Discretisation &discretisation,
-                const Preloads       &preloads,
+                const GlobalUnknowns &unknowns,
                 const SceneLoad      &load,
                 const FreeMotions    &free);
 
-  /// Work of the loads, with that of given forces of preloads, on a rigid
+  /// Work of the loads, with that of given forces of unknowns, on a rigid
   /// @p motion. Collective.
   double
   work_of_loads(const Discretisation &discretisation,
-                const Preloads       &preloads,
+                const GlobalUnknowns &unknowns,
                 const SceneLoad      &load,
-                const SystemVector   &motion);
+                const DrivenMotion   &motion);
 
   /// Move bodies with free rigid motions with these @p laws of the nodes of
-  /// contact from @p at along their loads and @p preloads until gaps close; the
+  /// contact from @p at along their loads and @p unknowns until gaps close; the
   /// nodes there stick, and the motion continues along free directions. Motions
   /// without work of the loads or without a gap in their way remain free. On
-  /// return @p at is where bodies are then; returns the closed nodes.
+  /// return @p at is where bodies are then, with the gaps of @p load; returns the
+  /// closed nodes.
   /// Collective.
   std::vector<bool>
   close_gaps_rigidly(const Discretisation &discretisation,
-                     const Preloads       &preloads,
-                     const SceneLoad      &load,
+                     const GlobalUnknowns &unknowns,
+                     SceneLoad            &load,
                      std::vector<Friction> laws,
                      SystemVector         &at);
 } // namespace mortise

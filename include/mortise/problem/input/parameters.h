@@ -49,11 +49,20 @@ namespace mortise
     std::array<double, 3>     displacement_axes{}; ///< rotation, degrees
     /// A vector along the axis, degrees, added to the displacement.
     std::optional<Components> rotation;
+    /// Does it move as a rigid part? Displacement and rotation are then those
+    /// of the reference point, "-" where they are free.
+    std::string coupling = "distributing";
     /// Of force and rotation. Absent: the centroid.
     std::optional<std::array<double, 3>> reference_point;
     std::optional<std::string> normal_displacement; ///< excludes the others
     /// Of an elastic foundation.
     std::optional<std::string> normal_stiffness, tangential_stiffness;
+
+    bool
+    is_rigid() const
+    {
+      return coupling == "rigid";
+    }
   };
 
   /// A prescribed displacement at a point, or along a straight line.

@@ -75,6 +75,7 @@ namespace mortise
     LevelVector<double>    borne;
     LevelVector<double>    reactions; ///< of constrained components
     dealii::Tensor<1, dim> applied;
+    dealii::Tensor<1, dim> on_rigid_parts; ///< of them: at reference points
   };
 
   /// A linear functional of unknowns and prescribed values.

@@ -176,6 +176,13 @@ namespace mortise
       return system;
     }
 
+    /// The displacements that @p field prescribes on @p part, others zero; the
+    /// same at nodes. Collective.
+    PrescribedValues
+    lift(const RigidPart &part, const AffineField &field) const;
+    Vector
+    at_nodes(const PrescribedValues &prescribed) const;
+
     /// Replace the pairing by that of the configuration displaced by the
     /// solutions @p displaced, by body, where interfaces follow the bodies, with
     /// partners within @p least_search at least; the bulk is kept. Their gaps are then linear in displacements about that

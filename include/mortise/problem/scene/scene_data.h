@@ -8,6 +8,7 @@
 #include <mortise/material/exact_solution.h>
 #include <mortise/operators/scene_system.h>
 #include <mortise/problem/input/parameters.h>
+#include <mortise/problem/support/rigid_part.h>
 
 #include <functional>
 #include <memory>
@@ -77,7 +78,41 @@ namespace mortise
     std::vector<DirichletCondition>
     dirichlet(const Body &body) const;
 
+    /// The rigid parts of @p bodies. Collective; throws InputError for displacements
+    /// that are no rigid motion.
+    std::vector<RigidPart>
+    rigid_parts(const Bodies &bodies) const;
+
   private:
+    /// That of @p boundary, which is @p id of @p body. Collective.
+    static dealii::Point<dim>
+    reference_point(const Body                &body,
+                    const BoundaryParameters  &boundary,
+                    dealii::types::boundary_id id);
+
+    /// The components @p texts at @p path, not a number where they are free or
+    /// not given, without the factor of all that acts.
+    std::vector<double>
+    given_components(const std::optional<Components> &texts,
+                     const std::string               &path) const;
+
+    /// The force, moment or rotation @p texts at @p path; zero if it is not
+    /// given.
+    dealii::Tensor<1, dim>
+    total(const std::optional<Components> &texts,
+          const std::string               &path) const;
+
+    /// Of @p body. Collective.
+    std::vector<RigidPart>
+    rigid_parts_without_motions(const Body &body) const;
+
+    /// Set the free and the given motion of @p part of @p body. Collective; throws
+    /// InputError.
+    void
+    set_motion(const Body                            &body,
+               const std::vector<DirichletCondition> &dirichlet,
+               RigidPart                             &part) const;
+
     /// The displacement of @p boundary, which is @p id of @p body and the section @p where, by its Rotation; null if
     /// that is zero at all times.
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>

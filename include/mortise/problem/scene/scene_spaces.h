@@ -36,6 +36,7 @@ namespace mortise
     const CyclePlan cycle;
     /// By body: prescribed displacements, and whether they may be nonzero.
     std::vector<std::vector<DirichletCondition>> dirichlet;
+    std::vector<RigidPart>                       rigid_parts;
     /// By body: conformity and homogeneous Dirichlet constraints; not closed.
     std::vector<dealii::AffineConstraints<double>> constraints;
     SceneFields                                    fields;
@@ -86,4 +87,10 @@ namespace mortise
   /// The displacements that @p data prescribes. Collective.
   PrescribedValues
   prescribed_values(const SceneSpaces &spaces, const SceneData &data);
+
+  /// Those of @p field on @p part alone. Collective.
+  PrescribedValues
+  prescribed_values(const SceneSpaces &spaces,
+                    const RigidPart   &part,
+                    const AffineField &field);
 } // namespace mortise

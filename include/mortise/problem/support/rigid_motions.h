@@ -3,18 +3,19 @@
 
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/problem/input/parameters.h>
-#include <mortise/problem/support/rigid_support.h>
+#include <mortise/problem/support/rigid_part.h>
 
 #include <vector>
 
 namespace mortise
 {
-  /// Rigid motions that are free with the Dirichlet conditions and the
-  /// multipliers of @p ties. Collective.
+  /// Rigid motions that are free with the Dirichlet conditions, what
+  /// is prescribed of the rigid @p parts, and the multipliers of @p ties. Collective.
   FreeMotions
   find_free_motions(
     const Bodies                                       &bodies,
     const std::vector<std::vector<DirichletCondition>> &dirichlet,
+    const std::vector<RigidPart>                       &parts,
     const std::vector<TieSupport>                      &ties);
 
   /// Throw InputError (on all ranks) for a piece of a body, without common
@@ -23,6 +24,7 @@ namespace mortise
   void
   check_pieces(const Bodies                                       &bodies,
                const std::vector<std::vector<DirichletCondition>> &dirichlet,
+               const std::vector<RigidPart>                       &parts,
                const std::vector<InterfaceParameters>             &interfaces);
 
   /// Throw InputError (on all ranks) with the motions of find_free_motions(),
@@ -31,5 +33,6 @@ namespace mortise
   check_rigid_motions(
     const Bodies                                       &bodies,
     const std::vector<std::vector<DirichletCondition>> &dirichlet,
+    const std::vector<RigidPart>                       &parts,
     const std::vector<TieSupport>                      &ties);
 } // namespace mortise

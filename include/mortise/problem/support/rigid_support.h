@@ -104,13 +104,6 @@ namespace mortise
     std::vector<double> sums;
   };
 
-  /// Of the prescribed displacements of one body, or a part of it. Collective.
-  Support
-  support_of(const Body                            &body,
-             const std::vector<DirichletCondition> &dirichlet,
-             const Extent                          &where,
-             const PartOfBody                      &part = {});
-
   /// Data of an interface against the relative motion of two bodies.
   struct TieSupport
   {

@@ -1,7 +1,7 @@
 // Detection of ties with too few multipliers for two bodies.
 #pragma once
 
-#include <mortise/problem/support/rigid_support.h>
+#include <mortise/problem/support/rigid_part.h>
 
 #include <vector>
 
@@ -14,6 +14,7 @@ namespace mortise
   std::vector<unsigned int>
   weak_ties(const Bodies                                       &bodies,
             const std::vector<std::vector<DirichletCondition>> &dirichlet,
+            const std::vector<RigidPart>                       &parts,
             const std::vector<TieSupport>                      &ties,
             const std::vector<bool>                            &asked);
 } // namespace mortise
