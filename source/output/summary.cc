@@ -62,6 +62,7 @@ namespace mortise
                     pressure_max, gap_min, penetration_max, motion_max, active,
                     inactive, undecided, friction)
     MORTISE_MEMBERS(PreloadSummary, force, shortening)
+    MORTISE_MEMBERS(PeriodicCellSummary, volume, mean_strain, mean_stress)
     MORTISE_MEMBERS(EquilibriumSummary, applied, reactions, sum)
     MORTISE_MEMBERS(SolverSummary, method, preconditioner, iterations,
                     relative_residual, active_sets, newton_iterations,
@@ -71,7 +72,7 @@ namespace mortise
     MORTISE_MEMBERS(AdaptivitySummary, quantity, value, target, estimate,
                     estimate_bulk, estimate_interface, correction, effectivity)
     MORTISE_MEMBERS(StepSummary, step, cycle, time, bodies, dofs, interfaces,
-                    solver, equilibrium, errors, adaptivity, quantities)
+                    solver, equilibrium, periodic_cell, errors, adaptivity, quantities)
 
     template <typename Visit>
     void

@@ -195,5 +195,6 @@ namespace mortise
     for (unsigned int j = 0; j < preloads.interfaces().size(); ++j)
       summary.interfaces[preloads.interfaces()[j]].preload = {
         preloads.force(j, solution), preloads.shortenings()[j]};
+    summary.periodic_cell = preloads.cell(solution);
   }
 } // namespace mortise

@@ -98,6 +98,15 @@ namespace mortise
     double shortening = 0.; ///< by how much the sides approach
   };
 
+  /// Of the cell that periodic ties repeat: components xx, yy, zz, yz, zx, xy
+  /// of the mean strain, shears halves of the angle, and of the mean stress,
+  /// force per area.
+  struct PeriodicCellSummary
+  {
+    double              volume = 0.;
+    std::vector<double> mean_strain, mean_stress;
+  };
+
   struct InterfaceSummary
   {
     std::string   name;
@@ -180,6 +189,7 @@ namespace mortise
     std::vector<InterfaceSummary>     interfaces;
     std::optional<SolverSummary>      solver;      ///< absent until solved
     std::optional<EquilibriumSummary> equilibrium; ///< absent until solved
+    std::optional<PeriodicCellSummary> periodic_cell; ///< if there is one
     std::optional<ErrorSummary> errors; ///< absent without an exact solution
     std::optional<AdaptivitySummary> adaptivity; ///< with a target
     /// User-requested functionals in the order of the request: point values,

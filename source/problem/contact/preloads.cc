@@ -1,9 +1,10 @@
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/lapack_full_matrix.h>
 
 #include <mortise/base/error.h>
 #include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/input/periodic_cell.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,29 +66,44 @@ namespace mortise
           indices.push_back(i);
           values.push_back(0.);
         }
-    forces.resize(indices.size());
-    units.resize(indices.size());
+    if (!translations(run.parameters).empty())
+      {
+        volume = cell_volume(run.parameters);
+        if (volume == 0.)
+          volume = discretisation.volume();
+        values.resize(indices.size() + run.parameters.mean_strain.size());
+      }
+    forces.resize(values.size());
+    units.resize(values.size());
     pair_again();
   }
 
   void
   Preloads::pair_again()
   {
-    for (unsigned int j = 0; j < indices.size(); ++j)
+    for (unsigned int j = 0; j < units.size(); ++j)
       {
         units[j] = {discretisation.linear_system().zero_vector(), {}};
-        add_offset(
-          discretisation.interfaces().all()[indices[j]],
-          [](const Point<dim> &) { return 1.; },
-          units[j].rhs.multiplier);
+        Vector &w = units[j].rhs.multiplier;
+        if (j < indices.size())
+          add_offset(
+            discretisation.interfaces().all()[indices[j]],
+            [](const Point<dim> &) { return 1.; },
+            w);
+        else
+          for (const Coupling &coupling : discretisation.interfaces().all())
+            if (!coupling.is_turned)
+              add_jump(coupling,
+                       unit_strain(j - indices.size()) *
+                         coupling.placement.translation,
+                       w);
       }
-    have_units = known = false;
   }
 
   void
   Preloads::add_shortenings(SceneLoad &load) const
   {
-    for (unsigned int j = 0; j < indices.size(); ++j)
+    for (unsigned int j = 0; j < units.size(); ++j)
       load.rhs.multiplier.add(values[j], units[j].rhs.multiplier);
   }
 
@@ -97,6 +113,23 @@ namespace mortise
     std::vector<double> result(discretisation.interfaces().all().size(), 0.);
     for (unsigned int j = 0; j < indices.size(); ++j)
       result[indices[j]] = values[j];
+    result.insert(result.end(), values.begin() + indices.size(), values.end());
+    return result;
+  }
+
+  std::optional<PeriodicCellSummary>
+  Preloads::cell(const SystemVector &x) const
+  {
+    if (units.size() == indices.size())
+      return {};
+    PeriodicCellSummary result;
+    result.volume = volume;
+    for (unsigned int j = indices.size(); j < units.size(); ++j)
+      {
+        result.mean_strain.push_back(values[j]);
+        result.mean_stress.push_back(force(j, x) /
+                                     work_of_stress(j - indices.size()));
+      }
     return result;
   }
 
@@ -113,7 +146,7 @@ namespace mortise
   Preloads::work(const Vector &opening) const
   {
     double sum = 0.;
-    for (unsigned int j = 0; j < indices.size(); ++j)
+    for (unsigned int j = 0; j < units.size(); ++j)
       if (forces[j])
         sum += *forces[j] * shortening(j, opening);
     return sum;
@@ -123,7 +156,8 @@ namespace mortise
   Preloads::shortening(const unsigned int j, const Vector &opening) const
   {
     const Vector &w = units[j].rhs.multiplier;
-    return (w * opening) / (w * w);
+    const double square = w * w;
+    return square > 0. ? (w * opening) / square : 0.;
   }
 
   double
@@ -137,33 +171,43 @@ namespace mortise
                   const std::vector<double> &shortenings,
                   SceneLoad                 &load)
   {
-    for (unsigned int j = 0; j < indices.size(); ++j)
+    const unsigned int n = discretisation.interfaces().all().size();
+    for (unsigned int j = 0; j < units.size(); ++j)
       {
-        values[j] =
-          indices[j] < shortenings.size() ? shortenings[indices[j]] : 0.;
-        forces[j] =
-          data.preload(discretisation.interfaces().sides()[indices[j]]);
+        const bool         is_tie = j < indices.size();
+        const unsigned int k      = is_tie ? 0 : j - indices.size(),
+                           last   = is_tie ? indices[j] : n + k;
+        values[j] = last < shortenings.size() ? shortenings[last] : 0.;
+        if (is_tie)
+          forces[j] =
+            data.preload(discretisation.interfaces().sides()[indices[j]]);
+        else if (const auto strain = data.mean_strain(k))
+          values[j] = *strain;
+        else
+          forces[j] = work_of_stress(k) * data.mean_stress(k);
       }
     add_shortenings(load);
   }
 
   void
-  Preloads::shorten(const unsigned int j,
-                    const double       d,
-                    SceneLoad         &load,
-                    SystemVector      *x)
+  Preloads::shorten(const dealii::Vector<double> &d,
+                    SceneLoad                    &load,
+                    SystemVector                 &x)
   {
-    values[j] += d;
-    load.rhs.multiplier.add(d, units[j].rhs.multiplier);
-    if (x != nullptr)
-      add_scaled(*x, d, units[j].x);
+    for (unsigned int j = 0; j < units.size(); ++j)
+      if (forces[j])
+        {
+          values[j] += d(j);
+          load.rhs.multiplier.add(d(j), units[j].rhs.multiplier);
+          add_scaled(x, d(j), units[j].x);
+        }
   }
 
   dealii::Vector<double>
   Preloads::missing(const SystemVector &x) const
   {
-    dealii::Vector<double> result(indices.size());
-    for (unsigned int j = 0; j < indices.size(); ++j)
+    dealii::Vector<double> result(units.size());
+    for (unsigned int j = 0; j < units.size(); ++j)
       if (forces[j])
         result(j) = *forces[j] - force(j, x);
     return result;
@@ -173,31 +217,34 @@ namespace mortise
   Preloads::solve_units(SolveReport &report)
   {
     const auto &now = discretisation.linear_system().active;
-    if (known && Utilities::MPI::max(now == active ? 0 : 1, run.comm) == 0)
-      return;
-    for (unsigned int j = 0; j < indices.size(); ++j)
+    if (Utilities::MPI::max(now == active ? 0 : 1, run.comm) == 1)
+      system_changed();
+    for (unsigned int j = 0; j < units.size(); ++j)
       {
-        Unit             &unit    = units[j];
-        const SolveReport of_unit = have_units ?
+        Unit &unit = units[j];
+        if (!forces[j] || unit.known)
+          continue;
+        const SolveReport of_unit = unit.has_x ?
                                       solver.solve_from(unit.rhs, unit.x) :
                                       solver.solve(unit.rhs, unit.x);
         report.iterations += of_unit.iterations;
         report.add_seconds(of_unit);
         report.converged = report.converged && of_unit.converged;
+        unit.has_x = unit.known = true;
       }
-    active     = now;
-    have_units = known = true;
+    active = now;
   }
 
   dealii::Vector<double>
   Preloads::shortenings_for(const dealii::Vector<double> &lacks) const
   {
-    const unsigned int n = indices.size();
+    const unsigned int n = units.size();
     FullMatrix<double> stiffness(n, n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         stiffness(i, j) =
           forces[i] && forces[j] ? force(i, units[j].x) : (i == j ? 1. : 0.);
+    check_resistance(stiffness);
     stiffness.gauss_jordan();
     dealii::Vector<double> result(n);
     stiffness.vmult(result, lacks);
@@ -212,16 +259,17 @@ namespace mortise
     solve_units(report);
     if (!report.converged)
       return;
-    dealii::Vector<double> lacks(indices.size());
-    for (unsigned int j = 0; j < indices.size(); ++j)
+    dealii::Vector<double> lacks(units.size());
+    for (unsigned int j = 0; j < units.size(); ++j)
       if (forces[j])
         lacks(j) = -force(j, z);
     const dealii::Vector<double> d = shortenings_for(lacks);
-    for (unsigned int j = 0; j < indices.size(); ++j)
-      {
-        rhs.multiplier.add(d(j), units[j].rhs.multiplier);
-        add_scaled(z, d(j), units[j].x);
-      }
+    for (unsigned int j = 0; j < units.size(); ++j)
+      if (forces[j])
+        {
+          rhs.multiplier.add(d(j), units[j].rhs.multiplier);
+          add_scaled(z, d(j), units[j].x);
+        }
     const SolveReport again = solver.solve_from(rhs, z);
     report.iterations += again.iterations;
     report.solve_seconds += again.solve_seconds;
@@ -250,8 +298,57 @@ namespace mortise
   double
   Preloads::lack(const SystemVector &x) const
   {
-    const double size = largest_force();
+    const double size = size_of_forces(x);
     return size == 0. ? 0. : missing(x).linfty_norm() / size;
+  }
+
+  double
+  Preloads::size_of_forces(const SystemVector &x) const
+  {
+    double size = largest_force();
+    if (size > 0. || !has_force())
+      return size;
+    for (unsigned int j = 0; j < units.size(); ++j)
+      {
+        size = std::max(size, std::fabs(force(j, x)));
+        if (units[j].known)
+          size = std::max(size, std::fabs(values[j] * force(j, units[j].x)));
+      }
+    return size;
+  }
+
+  double
+  Preloads::work_of_stress(const unsigned int k) const
+  {
+    return volume * unit_strain(k).norm_square();
+  }
+
+  void
+  Preloads::check_resistance(const FullMatrix<double> &stiffness) const
+  {
+    // a lattice of pores resists with more of what its solid does
+    constexpr double          least = 1e-9;
+    std::vector<unsigned int> free;
+    for (unsigned int j = indices.size(); j < units.size(); ++j)
+      if (forces[j])
+        free.push_back(j);
+    if (free.empty())
+      return;
+    double modulus = 0.;
+    for (const auto &body : discretisation.bodies())
+      modulus = std::max(modulus, body->material.modulus());
+    LAPACKFullMatrix<double> matrix(free.size(), free.size());
+    for (unsigned int a = 0; a < free.size(); ++a)
+      for (unsigned int b = 0; b < free.size(); ++b)
+        matrix(a, b) = stiffness(free[a], free[b]);
+    matrix.compute_svd();
+    if (matrix.singular_value(free.size() - 1) > least * modulus * volume)
+      return;
+    run.parameters.fail(
+      "Periodic cell/Mean strain",
+      "free components that nothing resists",
+      "free components of which none is a rigid motion of all cells, as shears along a single translation are, and bodies that "
+      "hold together from cell to cell");
   }
 
   void
@@ -266,53 +363,51 @@ namespace mortise
     SystemVector next = x;
     add_scaled(next, 1., dx);
     const dealii::Vector<double> d = shortenings_for(missing(next));
-    for (unsigned int j = 0; j < indices.size(); ++j)
-      shorten(j, d(j), load, &dx);
+    shorten(d, load, dx);
   }
 
   SolveReport
   Preloads::solve_other_loads(const SceneLoad &load, SystemVector &x)
   {
     SystemVector others = load.rhs;
-    for (unsigned int j = 0; j < indices.size(); ++j)
-      others.multiplier.add(-values[j], units[j].rhs.multiplier);
+    for (unsigned int j = 0; j < units.size(); ++j)
+      if (forces[j])
+        others.multiplier.add(-values[j], units[j].rhs.multiplier);
     SolveReport report = solver.solve(others, x);
     if (report.converged)
       solve_units(report);
     if (report.converged)
-      for (unsigned int j = 0; j < indices.size(); ++j)
-        add_scaled(x, values[j], units[j].x);
+      for (unsigned int j = 0; j < units.size(); ++j)
+        if (forces[j])
+          add_scaled(x, values[j], units[j].x);
     return report;
   }
 
   SolveReport
   Preloads::solve(const bool goes_on, SceneLoad &load, SystemVector &x)
   {
-    if (indices.empty())
+    if (!has_force())
       return goes_on ? solver.solve_from(load.rhs, x) :
                        solver.solve(load.rhs, x);
-    const bool is_new =
-      std::all_of(values.begin(), values.end(), [](const double value) {
-        return value == 0.;
-      });
+    bool is_new = true;
+    for (unsigned int j = 0; j < units.size(); ++j)
+      is_new = is_new && (!forces[j] || values[j] == 0.);
     SolveReport  report      = goes_on ? solver.solve_from(load.rhs, x) :
                                is_new  ? solver.solve(load.rhs, x) :
                                          solve_other_loads(load, x);
-    const double size        = largest_force();
     bool         solves_load = goes_on || is_new; // not only about
     for (unsigned int k = 0; k < max_corrections && report.converged; ++k)
       {
         const dealii::Vector<double> lacks = missing(x);
         if (solves_load &&
-            !(lacks.linfty_norm() > run.parameters.solver.tolerance * size))
+            !(lacks.linfty_norm() > run.parameters.solver.tolerance * size_of_forces(x)))
           break;
         solves_load = true;
         solve_units(report);
         if (!report.converged)
           break;
         const dealii::Vector<double> d = shortenings_for(lacks);
-        for (unsigned int j = 0; j < indices.size(); ++j)
-          shorten(j, d(j), load, &x);
+        shorten(d, load, x);
         const SolveReport again = solver.solve_from(load.rhs, x);
         report.iterations += again.iterations;
         report.solve_seconds += again.solve_seconds;

@@ -297,7 +297,7 @@ namespace mortise
       supports.local_element(k) = reactions.local_element(k);
     const Pairing &interfaces = discretisation.interfaces();
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
-      if (interfaces.sides()[i].is_support)
+      if (interfaces.sides()[i].is_support || interfaces.all()[i].is_turned)
         supports -= dirichlet.forces_of(i, solved.solution.multiplier);
     const Tensor<1, dim> sum = sum_over_nodes(supports);
     return {components(applied), components(sum), components(applied + sum)};

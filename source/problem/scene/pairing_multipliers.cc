@@ -161,6 +161,7 @@ namespace mortise
                         interfaces[i].is_support ? TieSupport::ground :
                                                    interfaces[i].master.body,
                         multiplier_moments(couplings[i], owned, run.comm),
+                        couplings[i].placement,
                         report.covered_area / report.slave_area,
                         couplings[i].law.constrained,
                         {},
@@ -191,7 +192,8 @@ namespace mortise
       {
         const InterfaceParameters &given = interfaces[i];
         can_exchange.push_back(!given.is_support && !is_patch(i) &&
-                               !given.follows_bodies);
+                               !given.follows_bodies &&
+                               given.periodic == Periodicity::none);
         if (!can_exchange.back())
           continue;
         const auto &master =

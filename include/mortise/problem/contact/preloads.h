@@ -1,14 +1,21 @@
-// Ties with a given normal force (bolt pretension). The shortening of each, an
-// additional unknown, is part of the offset of its interface.
+// Ties with a given normal force (bolt pretension), and periodic ties with a
+// mean strain. The shortening of each of the former is an additional unknown,
+// part of the offset of its interface, and so are components of the mean strain
+// whose mean stress is given.
 //
 //     [  A    -w ] [ x ]   [ b ]
 //     [ -w^T   0 ] [ d ] = [ F ]
 //
 // A is the system of LinearSolver, w = int psi . n of the interface, d its
-// shortening, -w^T lambda its normal force. One solution with A per w gives the
+// shortening, -w^T lambda its normal force; or w = sum over periodic ties of
+// int psi . (e t) with the unit strain e and the translation t, d the mean
+// strain, -w^T lambda the mean stress times the volume of the cell. One solution with A per w gives the
 // Schur complement -w^T A^{-1} w of d. In Newton's method A is the tangent.
 #pragma once
 
+#include <deal.II/lac/full_matrix.h>
+
+#include <mortise/output/summary.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/solvers/linear_solver.h>
 
@@ -33,9 +40,13 @@ namespace mortise
       return values;
     }
 
-    /// By interface; zero without a preload.
+    /// By interface, zero without a preload; then the mean strain.
     std::vector<double>
     shortenings_by_interface() const;
+
+    /// Nothing without periodic ties. Collective.
+    std::optional<PeriodicCellSummary>
+    cell(const SystemVector &x) const;
 
     /// Indices of the preloaded interfaces.
     const std::vector<unsigned int> &
@@ -55,7 +66,8 @@ namespace mortise
     work(const Vector &opening) const;
 
     /// The normal force that preloaded interface @p j carries, positive where it pulls the
-    /// sides together. Collective.
+    /// sides together; behind these, what mean strains do work with.
+    /// Collective.
     double
     force(unsigned int j, const SystemVector &x) const;
 
@@ -71,7 +83,8 @@ namespace mortise
     void
     system_changed()
     {
-      known = false;
+      for (Unit &unit : units)
+        unit.known = false;
     }
 
     /// Take the forces of the time of @p data, and the shortenings of the last
@@ -112,9 +125,10 @@ namespace mortise
     struct Unit
     {
       SystemVector rhs, x;
+      bool         has_x = false, known = false; ///< in the present system
     };
 
-    /// The solutions for all w; their reports are added to @p report.
+    /// The solutions for all w with a force; their reports are added to @p report.
     void
     solve_units(SolveReport &report);
     /// Solve for @p load without shortenings, which start from earlier steps,
@@ -124,14 +138,24 @@ namespace mortise
     /// The d of the part d w of the constraint residual @p opening. Collective.
     double
     shortening(unsigned int j, const Vector &opening) const;
-    /// Add d w to @p load and its solution to @p x.
+    /// Add all d w to @p load and their solutions to @p x.
     void
-    shorten(unsigned int j, double d, SceneLoad &load, SystemVector *x);
+    shorten(const dealii::Vector<double> &d, SceneLoad &load, SystemVector &x);
+    /// Of a unit of the mean stress on the unit strain @p k of the cell.
+    double
+    work_of_stress(unsigned int k) const;
     /// Is a force given, and not all shortenings kept?
     bool
     has_force() const;
     double
     largest_force() const;
+    /// That of which forces of @p x lack a part: the largest given one, or where
+    /// all are zero those of the other loads and shortenings. Collective.
+    double
+    size_of_forces(const SystemVector &x) const;
+    /// Throws InputError where mean strains that are free meet no resistance.
+    void
+    check_resistance(const dealii::FullMatrix<double> &stiffness) const;
     /// Missing forces by preloaded interface; zero if the shortening is kept.
     dealii::Vector<double>
     missing(const SystemVector &x) const;
@@ -144,11 +168,11 @@ namespace mortise
     const RunContext                  &run;
     const Discretisation              &discretisation;
     LinearSolver                      &solver;
-    std::vector<unsigned int>          indices;
+    std::vector<unsigned int>          indices; ///< of preloaded interfaces
+    double                             volume = 0.; ///< of the cell, if any
     std::vector<double>                values;
     std::vector<std::optional<double>> forces; ///< absent: kept shortening
     std::vector<Unit>                  units;
     std::optional<std::vector<bool>>   active; ///< set of the units
-    bool have_units = false, known = false;    ///< and of the present system
   };
 } // namespace mortise

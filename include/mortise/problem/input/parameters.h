@@ -165,6 +165,10 @@ namespace mortise
     std::vector<BodyParameters>      bodies;
     std::vector<InterfaceParameters> interfaces;
     std::optional<Components>        gravity; ///< length per time squared
+    /// xx, yy, zz, yz, zx, xy: of the cell that periodic interfaces repeat,
+    /// "free" where the mean stress is given.
+    std::array<std::string, 6> mean_strain{{"0", "0", "0", "0", "0", "0"}},
+      mean_stress = mean_strain;
     ExactSolutionParameters          exact_solution;
     SolverParameters                 solver;
     AdaptivityParameters             adaptivity;
@@ -187,6 +191,10 @@ namespace mortise
          const std::string &got,
          const std::string &allowed) const;
   };
+
+  /// Of Parameters::mean_strain.
+  constexpr std::array<const char *, 6> components_of_strain = {
+    {"xx", "yy", "zz", "yz", "zx", "xy"}};
 
   /// "body: boundary, boundary", for messages.
   inline std::string

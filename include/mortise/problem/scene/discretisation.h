@@ -8,6 +8,7 @@
 #include <mortise/problem/scene/scene_spaces.h>
 #include <mortise/solvers/find_free_pressures.h>
 
+#include <numeric>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -144,6 +145,13 @@ namespace mortise
     /// interfaces.
     StepSummary
     summary() const;
+
+    /// Of all bodies.
+    double
+    volume() const
+    {
+      return std::accumulate(volumes.begin(), volumes.end(), 0.);
+    }
 
     const Bodies &
     bodies() const
