@@ -122,7 +122,7 @@ namespace mortise
     std::map<std::string, std::vector<bool>> taken_before;
     for (const unsigned int i : shared.order())
       {
-        const std::vector<bool> &coupled =
+        std::vector<bool> coupled =
           interfaces[i].direction ?
             taken_before.try_emplace(interfaces[i].boundary, shared.coupled())
               .first->second :
@@ -130,6 +130,9 @@ namespace mortise
         const SideParameters &slave    = interfaces[i].slave;
         const Body           &body     = *spaces.bodies[slave.body];
         Coupling             &coupling = couplings[i];
+        if (coupling.is_turned)
+          for (const unsigned int k : shared.on_axis(i))
+            coupled[k] = true;
         coupling.multipliers           = std::make_unique<MultiplierSpace>(
           body, coupling, states[i], constrained_dofs(slave.body, coupled));
         shared.add(i);
