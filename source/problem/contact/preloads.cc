@@ -76,6 +76,7 @@ namespace mortise
     forces.resize(values.size());
     units.resize(values.size());
     pair_again();
+    find_enclosure();
   }
 
   void
@@ -83,7 +84,7 @@ namespace mortise
   {
     for (unsigned int j = 0; j < units.size(); ++j)
       {
-        units[j] = {discretisation.linear_system().zero_vector(), {}};
+        units[j]  = {discretisation.linear_system().zero_vector(), {}};
         Vector &w = units[j].rhs.multiplier;
         if (j < indices.size())
           add_offset(
@@ -98,6 +99,51 @@ namespace mortise
                          coupling.placement.translation,
                        w);
       }
+  }
+
+  void
+  Preloads::find_enclosure()
+  {
+    constexpr double least = 0.5; // of the volume
+    fluxes.reinit(units.size());
+    for (const SystemVector &state : discretisation.free_states())
+      if (state.multiplier.size() > 0)
+        {
+          for (unsigned int j = indices.size(); j < units.size(); ++j)
+            fluxes(j) = units[j].rhs.multiplier * state.multiplier;
+          if (fluxes.linfty_norm() > least * volume)
+            {
+              enclosure.emplace(state);
+              break;
+            }
+          fluxes = 0.;
+        }
+    if (enclosure && has_free_strain(run.parameters) &&
+        (discretisation.linear_system().bulk->is_nonlinear() ||
+         discretisation.interfaces().follow()))
+      run.parameters.fail(
+        "Periodic cell/Mean strain",
+        "free components of a cell that is filled with incompressible bodies, whose law is not linear, or with contact that follows bodies",
+        "Poisson ratios below 0.5, or a Mean strain that keeps the volume");
+  }
+
+  void
+  Preloads::check_volume() const
+  {
+    constexpr double rounding = 0.01;
+    double           net = 0., total = 0.;
+    for (unsigned int j = 0; j < units.size(); ++j)
+      {
+        if (forces[j] && fluxes(j) != 0.)
+          return; // that component keeps it
+        net += values[j] * fluxes(j);
+        total += std::fabs(values[j] * fluxes(j));
+      }
+    if (std::fabs(net) > rounding * total)
+      run.parameters.fail(
+        "Periodic cell/Mean strain",
+        "a change of volume of a cell that is filled with incompressible bodies",
+        "components xx, yy, zz whose sum is zero, one of them free, or smaller Poisson ratios");
   }
 
   void
@@ -155,8 +201,8 @@ namespace mortise
   double
   Preloads::shortening(const unsigned int j, const Vector &opening) const
   {
-    const Vector &w = units[j].rhs.multiplier;
-    const double square = w * w;
+    const Vector &w      = units[j].rhs.multiplier;
+    const double  square = w * w;
     return square > 0. ? (w * opening) / square : 0.;
   }
 
@@ -186,6 +232,7 @@ namespace mortise
         else
           forces[j] = work_of_stress(k) * data.mean_stress(k);
       }
+    check_volume();
     add_shortenings(load);
   }
 
@@ -236,7 +283,8 @@ namespace mortise
   }
 
   dealii::Vector<double>
-  Preloads::shortenings_for(const dealii::Vector<double> &lacks) const
+  Preloads::shortenings_for(const dealii::Vector<double> &lacks,
+                            const SystemVector           &rhs) const
   {
     const unsigned int n = units.size();
     FullMatrix<double> stiffness(n, n);
@@ -245,10 +293,50 @@ namespace mortise
         stiffness(i, j) =
           forces[i] && forces[j] ? force(i, units[j].x) : (i == j ? 1. : 0.);
     check_resistance(stiffness);
-    stiffness.gauss_jordan();
-    dealii::Vector<double> result(n);
-    stiffness.vmult(result, lacks);
+    // with the pressure, and the volume that is kept
+    FullMatrix<double>     system(n + 1, n + 1);
+    dealii::Vector<double> right(n + 1), result(n + 1);
+    system(n, n) = 1.;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        right(i) = lacks(i);
+        for (unsigned int j = 0; j < n; ++j)
+          system(i, j) = stiffness(i, j);
+        if (forces[i] && fluxes(i) != 0.)
+          {
+            system(i, n) = system(n, i) = -fluxes(i);
+            system(n, n)                = 0.;
+          }
+      }
+    right(n) = net_flux(rhs);
+    system.gauss_jordan();
+    system.vmult(result, right);
+    result.grow_or_shrink(n);
     return result;
+  }
+
+  double
+  Preloads::net_flux(const SystemVector &rhs) const
+  {
+    for (unsigned int j = 0; j < units.size(); ++j)
+      if (forces[j] && fluxes(j) != 0.)
+        return rhs.pressure * enclosure->pressure +
+               rhs.multiplier * enclosure->multiplier;
+    return 0.;
+  }
+
+  double
+  Preloads::take_pressure(dealii::Vector<double> &lacks) const
+  {
+    dealii::Vector<double> free(units.size());
+    for (unsigned int j = 0; j < units.size(); ++j)
+      free(j) = forces[j] ? fluxes(j) : 0.;
+    const double square = free * free;
+    if (square == 0.)
+      return 0.;
+    const double pressure = -(lacks * free) / square;
+    lacks.add(pressure, free);
+    return pressure;
   }
 
   void
@@ -263,7 +351,7 @@ namespace mortise
     for (unsigned int j = 0; j < units.size(); ++j)
       if (forces[j])
         lacks(j) = -force(j, z);
-    const dealii::Vector<double> d = shortenings_for(lacks);
+    const dealii::Vector<double> d = shortenings_for(lacks, rhs);
     for (unsigned int j = 0; j < units.size(); ++j)
       if (forces[j])
         {
@@ -362,7 +450,7 @@ namespace mortise
     solve_units(report);
     SystemVector next = x;
     add_scaled(next, 1., dx);
-    const dealii::Vector<double> d = shortenings_for(missing(next));
+    const dealii::Vector<double> d = shortenings_for(missing(next), load.rhs);
     shorten(d, load, dx);
   }
 
@@ -392,21 +480,27 @@ namespace mortise
     bool is_new = true;
     for (unsigned int j = 0; j < units.size(); ++j)
       is_new = is_new && (!forces[j] || values[j] == 0.);
-    SolveReport  report      = goes_on ? solver.solve_from(load.rhs, x) :
-                               is_new  ? solver.solve(load.rhs, x) :
-                                         solve_other_loads(load, x);
-    bool         solves_load = goes_on || is_new; // not only about
+    SolveReport report      = goes_on ? solver.solve_from(load.rhs, x) :
+                              is_new  ? solver.solve(load.rhs, x) :
+                                        solve_other_loads(load, x);
+    bool        solves_load = goes_on || is_new; // not only about
     for (unsigned int k = 0; k < max_corrections && report.converged; ++k)
       {
-        const dealii::Vector<double> lacks = missing(x);
+        dealii::Vector<double> lacks = missing(x);
+        take_pressure(lacks);
+        double strain = 0.;
+        for (unsigned int j = indices.size(); j < units.size(); ++j)
+          strain = std::max(strain, std::fabs(values[j]));
+        const double tolerance = run.parameters.solver.tolerance;
         if (solves_load &&
-            !(lacks.linfty_norm() > run.parameters.solver.tolerance * size_of_forces(x)))
+            !(lacks.linfty_norm() > tolerance * size_of_forces(x)) &&
+            !(std::fabs(net_flux(load.rhs)) > tolerance * strain * volume))
           break;
         solves_load = true;
         solve_units(report);
         if (!report.converged)
           break;
-        const dealii::Vector<double> d = shortenings_for(lacks);
+        const dealii::Vector<double> d = shortenings_for(lacks, load.rhs);
         shorten(d, load, x);
         const SolveReport again = solver.solve_from(load.rhs, x);
         report.iterations += again.iterations;
@@ -415,6 +509,9 @@ namespace mortise
         report.attainable        = again.attainable;
         report.converged         = again.converged;
       }
+    dealii::Vector<double> lacks = missing(x);
+    if (const double pressure = take_pressure(lacks); pressure != 0.)
+      add_scaled(x, pressure, *enclosure);
     return report;
   }
 } // namespace mortise

@@ -115,6 +115,10 @@ namespace mortise
                           "arc length with Law = " + name_of(interface.law) +
                             " of interface " + interface.name,
                           "load: arc length knows no contact");
+        if (by_length && has_free_strain(parameters))
+          parameters.fail(control,
+                          "arc length with free components of the Mean strain",
+                          "load: they follow from given stresses");
         if (by_length && interface.preload)
           parameters.fail(control,
                           "arc length with the Preload of interface " +

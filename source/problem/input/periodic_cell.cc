@@ -52,9 +52,7 @@ namespace mortise
             return;
           }
         if (!given)
-          parameters.fail(path,
-                          "nothing with Periodic = " + kind,
-                          allowed);
+          parameters.fail(path, "nothing with Periodic = " + kind, allowed);
         if (vector_of(*given).norm() == 0.)
           parameters.fail(path, "zero", allowed);
       };
@@ -63,11 +61,12 @@ namespace mortise
             Periodicity::translation,
             "translation",
             "the vector from the master to the slave");
-      check("Rotation",
-            interface.rotation,
-            Periodicity::rotation,
-            "rotation",
-            "the rotation from the master to the slave, a vector along the axis, in degrees");
+      check(
+        "Rotation",
+        interface.rotation,
+        Periodicity::rotation,
+        "rotation",
+        "the rotation from the master to the slave, a vector along the axis, in degrees");
       if (interface.reference_point &&
           interface.periodic != Periodicity::rotation)
         parameters.fail(section + "/Reference point",
@@ -81,15 +80,16 @@ namespace mortise
                           name_of(interface.law),
                         "Law = tie");
       if (interface.preload)
-        parameters.fail(section + "/Preload",
-                        "a preload of a periodic interface",
-                        "nothing; the Mean stress of the Periodic cell acts on all of it");
+        parameters.fail(
+          section + "/Preload",
+          "a preload of a periodic interface",
+          "nothing; the Mean stress of the Periodic cell acts on all of it");
     }
 
     /// The squares of jumps of the free components, over the translations,
     /// have no zero but zero.
     bool
-    move_translations(const std::vector<unsigned int>  &free,
+    move_translations(const std::vector<unsigned int> &free,
                       const std::vector<Tensor<1, 3>> &moved)
     {
       LAPACKFullMatrix<double> squares(free.size(), free.size());
@@ -116,12 +116,11 @@ namespace mortise
     if (periodic == Periodicity::rotation)
       {
         const Tensor<1, 3> angle  = vector_of(*rotation),
-                           centre = vector_of(reference_point.value_or(
-                             std::array<double, 3>{}));
+                           centre = vector_of(
+                             reference_point.value_or(std::array<double, 3>{}));
         result.rotation =
           Physics::Transformations::Rotations::rotation_matrix_3d(
-            Point<3>(angle / angle.norm()),
-            angle.norm() * numbers::PI / 180.);
+            Point<3>(angle / angle.norm()), angle.norm() * numbers::PI / 180.);
         result.translation = centre - result.rotation * centre;
       }
     return result;
@@ -149,9 +148,11 @@ namespace mortise
       if (interface.periodic == Periodicity::translation)
         {
           const Tensor<1, 3> t = vector_of(*interface.translation);
-          if (std::none_of(result.begin(), result.end(), [&](const auto &other) {
-                return are_same(t, other);
-              }))
+          if (std::none_of(result.begin(),
+                           result.end(),
+                           [&](const auto &other) {
+                             return are_same(t, other);
+                           }))
             result.push_back(t);
         }
     return result;
@@ -183,15 +184,22 @@ namespace mortise
     return parameters.mean_strain[component] == "free";
   }
 
+  bool
+  has_free_strain(const Parameters &parameters)
+  {
+    const auto &all = parameters.mean_strain;
+    return std::find(all.begin(), all.end(), "free") != all.end();
+  }
+
   void
   check_periodic_cell(const Parameters &parameters)
   {
     for (const InterfaceParameters &interface : parameters.interfaces)
       if (!interface.is_support)
         check_motion(parameters, interface);
-    const std::string         strain = "Periodic cell/Mean strain",
-                              stress = "Periodic cell/Mean stress";
-    const auto                moved  = translations(parameters);
+    const std::string strain        = "Periodic cell/Mean strain",
+                      stress        = "Periodic cell/Mean stress";
+    const auto                moved = translations(parameters);
     std::vector<unsigned int> free;
     for (unsigned int k = 0; k < parameters.mean_strain.size(); ++k)
       {
@@ -206,11 +214,11 @@ namespace mortise
           {
             check_number(parameters, strain, of_strain, component);
             if (of_stress != "0")
-              parameters.fail(stress + component,
-                              in_quotes(of_stress) +
-                                " beside the Mean strain " +
-                                in_quotes(of_strain),
-                              "0, or \"free\" for that component of Mean strain");
+              parameters.fail(
+                stress + component,
+                in_quotes(of_stress) + " beside the Mean strain " +
+                  in_quotes(of_strain),
+                "0, or \"free\" for that component of Mean strain");
           }
         if (moved.empty() && of_strain != "0")
           parameters.fail(
@@ -220,10 +228,10 @@ namespace mortise
             "0: a mean strain acts on translations");
       }
     if (!free.empty() && !move_translations(free, moved))
-      parameters.fail(
-        strain,
-        "more free components than the " + std::to_string(moved.size()) +
-          " different translations of the interfaces can tell",
-        "\"free\" for components along the translations");
+      parameters.fail(strain,
+                      "more free components than the " +
+                        std::to_string(moved.size()) +
+                        " different translations of the interfaces can tell",
+                      "\"free\" for components along the translations");
   }
 } // namespace mortise

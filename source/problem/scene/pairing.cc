@@ -310,7 +310,9 @@ namespace mortise
         (given.search_distance.length > 0. ?
            RunLog::number(given.search_distance.length) :
            RunLog::number(given.search_distance.by_size) + " face sizes") +
-        ", or all are hidden by a body. Check positions, names and Search distance");
+        (given.periodic == Periodicity::none ?
+           ", or all are hidden by a body. Check positions, names and Search distance" :
+           " after the master is moved. Check that Translation or Rotation leads from the master to the slave, and not back"));
     if (report.failed_pairs > 0)
       run.log.warning("interface " + name + ": the projection of " +
                       std::to_string(report.failed_pairs) +

@@ -9,8 +9,9 @@
 // A is the system of LinearSolver, w = int psi . n of the interface, d its
 // shortening, -w^T lambda its normal force; or w = sum over periodic ties of
 // int psi . (e t) with the unit strain e and the translation t, d the mean
-// strain, -w^T lambda the mean stress times the volume of the cell. One solution with A per w gives the
-// Schur complement -w^T A^{-1} w of d. In Newton's method A is the tangent.
+// strain, -w^T lambda the mean stress times the volume of the cell. One
+// solution with A per w gives the Schur complement -w^T A^{-1} w of d. In
+// Newton's method A is the tangent.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -160,19 +161,39 @@ namespace mortise
     dealii::Vector<double>
     missing(const SystemVector &x) const;
 
-    /// Changes of shortenings for the missing forces @p lacks. After
-    /// solve_units().
+    /// Changes of shortenings for the missing forces @p lacks of a solution for
+    /// @p rhs. After solve_units().
     dealii::Vector<double>
-    shortenings_for(const dealii::Vector<double> &lacks) const;
+    shortenings_for(const dealii::Vector<double> &lacks,
+                    const SystemVector           &rhs) const;
+    /// The constant pressure that an incompressible cell lacks to have the mean
+    /// stress, and which solutions do not contain; it is taken from @p lacks.
+    double
+    take_pressure(dealii::Vector<double> &lacks) const;
+    /// Find fluxes.
+    void
+    find_enclosure();
+    /// Of what @p rhs lets flow out of an enclosure, the volume that is not made
+    /// up for by free strains. Collective.
+    double
+    net_flux(const SystemVector &rhs) const;
+    /// Throws InputError where the volume of an incompressible cell changes.
+    void
+    check_volume() const;
 
     const RunContext                  &run;
     const Discretisation              &discretisation;
     LinearSolver                      &solver;
-    std::vector<unsigned int>          indices; ///< of preloaded interfaces
+    std::vector<unsigned int>          indices;     ///< of preloaded interfaces
     double                             volume = 0.; ///< of the cell, if any
     std::vector<double>                values;
     std::vector<std::optional<double>> forces; ///< absent: kept shortening
     std::vector<Unit>                  units;
-    std::optional<std::vector<bool>>   active; ///< set of the units
+    /// Of a cell that is filled with incompressible bodies, the pressure of one
+    /// and its multipliers, and by unit what flows out with it, a volume; else
+    /// absent and zero.
+    std::optional<SystemVector>      enclosure;
+    dealii::Vector<double>           fluxes;
+    std::optional<std::vector<bool>> active; ///< set of the units
   };
 } // namespace mortise

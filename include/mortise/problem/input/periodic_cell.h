@@ -27,6 +27,10 @@ namespace mortise
   bool
   is_free_strain(const Parameters &parameters, unsigned int component);
 
+  /// Is any?
+  bool
+  has_free_strain(const Parameters &parameters);
+
   /// Throws InputError for what does not go together.
   void
   check_periodic_cell(const Parameters &parameters);

@@ -153,6 +153,11 @@ namespace mortise
       return std::accumulate(volumes.begin(), volumes.end(), 0.);
     }
 
+    /// Constant pressures of incompressible bodies in the kernel, with the
+    /// multipliers that balance them.
+    std::vector<SystemVector>
+    free_states() const;
+
     const Bodies &
     bodies() const
     {
