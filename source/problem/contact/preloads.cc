@@ -488,11 +488,15 @@ namespace mortise
       {
         dealii::Vector<double> lacks = missing(x);
         take_pressure(lacks);
-        double strain = 0.;
+        double strain     = 0.;
+        bool   is_checked = true; // check_resistance()
         for (unsigned int j = indices.size(); j < units.size(); ++j)
-          strain = std::max(strain, std::fabs(values[j]));
+          {
+            strain     = std::max(strain, std::fabs(values[j]));
+            is_checked = is_checked && (!forces[j] || units[j].has_x);
+          }
         const double tolerance = run.parameters.solver.tolerance;
-        if (solves_load &&
+        if (solves_load && is_checked &&
             !(lacks.linfty_norm() > tolerance * size_of_forces(x)) &&
             !(std::fabs(net_flux(load.rhs)) > tolerance * strain * volume))
           break;

@@ -4,6 +4,7 @@
 #include <mortise/base/run_log.h>
 #include <mortise/problem/input/formulation.h>
 #include <mortise/problem/input/interface_law.h>
+#include <mortise/problem/input/periodic_cell.h>
 
 #include <algorithm>
 
