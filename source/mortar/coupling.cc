@@ -89,7 +89,8 @@ namespace mortise
       return rows;
     }
 
-    /// [D, -M] by node, before masters are turned, once for the components that share their entries.
+    /// [D, -M] by node, before masters are turned, once for the components that
+    /// share their entries.
     /// @p across: see MultiplierSpace::ComponentRows, by coupling.
     SparseMatrix
     assemble_blocks(const std::vector<Coupling> &couplings,

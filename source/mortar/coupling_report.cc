@@ -360,9 +360,7 @@ namespace mortise
   }
 
   void
-  add_jump(const Coupling       &coupling,
-           const Tensor<1, dim> &jump,
-           Vector               &rhs)
+  add_jump(const Coupling &coupling, const Tensor<1, dim> &jump, Vector &rhs)
   {
     Vector sum = make_sums(1,
                            coupling,
@@ -374,8 +372,8 @@ namespace mortise
                       const Tensor<1, dim> &direction,
                       const auto            index,
                       const double          weight) {
-                    sum(index) += weight * integral(coupling, s, node) *
-                                  (jump * direction);
+                    sum(index) +=
+                      weight * integral(coupling, s, node) * (jump * direction);
                   });
     sum.compress(VectorOperation::add);
     rhs += sum;

@@ -152,9 +152,9 @@ namespace mortise
   {
     const InterfaceHandler &interface = *coupling.interface;
     // the master where it is
-    const Tensor<2, dim>    back = transpose(coupling.placement.rotation);
-    InterfacePoints         point_at(coupling, displacement, offset, comm);
-    InterfaceEvaluation     result;
+    const Tensor<2, dim> back = transpose(coupling.placement.rotation);
+    InterfacePoints      point_at(coupling, displacement, offset, comm);
+    InterfaceEvaluation  result;
     result.energies.resize(interface.slave().faces.size(), 0.);
     std::vector<ActiveArea> of_slaves(interface.slave().faces.size()),
       of_masters(interface.master_faces().size());

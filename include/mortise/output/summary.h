@@ -183,12 +183,12 @@ namespace mortise
   {
     unsigned int step  = 0; ///< from 1 on, or 0 in a scene without steps
     unsigned int cycle = 0;
-    std::optional<double>             time; ///< in a scene with steps
-    std::vector<BodySummary>          bodies;
-    DofSummary                        dofs;
-    std::vector<InterfaceSummary>     interfaces;
-    std::optional<SolverSummary>      solver;      ///< absent until solved
-    std::optional<EquilibriumSummary> equilibrium; ///< absent until solved
+    std::optional<double>              time; ///< in a scene with steps
+    std::vector<BodySummary>           bodies;
+    DofSummary                         dofs;
+    std::vector<InterfaceSummary>      interfaces;
+    std::optional<SolverSummary>       solver;        ///< absent until solved
+    std::optional<EquilibriumSummary>  equilibrium;   ///< absent until solved
     std::optional<PeriodicCellSummary> periodic_cell; ///< if there is one
     std::optional<ErrorSummary> errors; ///< absent without an exact solution
     std::optional<AdaptivitySummary> adaptivity; ///< with a target

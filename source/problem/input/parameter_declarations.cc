@@ -172,11 +172,12 @@ namespace mortise
         "strain of the Periodic cell times Translation. rotation: by Rotation about Reference point, and the "
         "displacement of the slave is that of the master turned by it (cyclic symmetry).",
         Allowed::one_of({"none", "translation", "rotation"}));
-      section.add("Translation",
-                  interface.translation,
-                  {"Periodic = translation: the vector from the master to the slave [].",
-                   "length"},
-                  {"3 numbers"});
+      section.add(
+        "Translation",
+        interface.translation,
+        {"Periodic = translation: the vector from the master to the slave [].",
+         "length"},
+        {"3 numbers"});
       section.add(
         "Rotation",
         interface.rotation,

@@ -165,9 +165,8 @@ namespace mortise
     print_periodic_cell(RunLog &log, const PeriodicCellSummary &cell)
     {
       log.line();
-      Rows rows = {
-        {"periodic cell", "xx", "yy", "zz", "yz", "zx", "xy"}};
-      const auto add = [&](const std::string         &name,
+      Rows       rows = {{"periodic cell", "xx", "yy", "zz", "yz", "zx", "xy"}};
+      const auto add  = [&](const std::string         &name,
                            const std::vector<double> &values) {
         rows.push_back({name});
         for (const double value : values)

@@ -133,7 +133,7 @@ namespace mortise
         if (coupling.is_turned)
           for (const unsigned int k : shared.on_axis(i))
             coupled[k] = true;
-        coupling.multipliers           = std::make_unique<MultiplierSpace>(
+        coupling.multipliers = std::make_unique<MultiplierSpace>(
           body, coupling, states[i], constrained_dofs(slave.body, coupled));
         shared.add(i);
       }

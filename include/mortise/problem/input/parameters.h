@@ -169,11 +169,11 @@ namespace mortise
     /// "free" where the mean stress is given.
     std::array<std::string, 6> mean_strain{{"0", "0", "0", "0", "0", "0"}},
       mean_stress = mean_strain;
-    ExactSolutionParameters          exact_solution;
-    SolverParameters                 solver;
-    AdaptivityParameters             adaptivity;
-    StepParameters                   steps;
-    OutputParameters                 output;
+    ExactSolutionParameters exact_solution;
+    SolverParameters        solver;
+    AdaptivityParameters    adaptivity;
+    StepParameters          steps;
+    OutputParameters        output;
 
     std::string             file; ///< the parameter file, as it was given
     std::vector<Assignment> assignments; ///< its lines and those of --set
