@@ -110,7 +110,8 @@ namespace mortise
       if (state.multiplier.size() > 0)
         {
           for (unsigned int j = indices.size(); j < units.size(); ++j)
-            fluxes(j) = units[j].rhs.multiplier * state.multiplier;
+            if (j - indices.size() < dim) // shears keep the volume
+              fluxes(j) = units[j].rhs.multiplier * state.multiplier;
           if (fluxes.linfty_norm() > least * volume)
             {
               enclosure.emplace(state);
