@@ -119,7 +119,7 @@ namespace mortise
             }
           fluxes = 0.;
         }
-    if (enclosure && has_free_strain(run.parameters) &&
+    if (enclosure && has_free_volume(run.parameters) &&
         (discretisation.linear_system().bulk->is_nonlinear() ||
          discretisation.interfaces().follow()))
       run.parameters.fail(

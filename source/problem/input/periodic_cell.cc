@@ -191,6 +191,13 @@ namespace mortise
     return std::find(all.begin(), all.end(), "free") != all.end();
   }
 
+  bool
+  has_free_volume(const Parameters &parameters)
+  {
+    return is_free_strain(parameters, 0) || is_free_strain(parameters, 1) ||
+           is_free_strain(parameters, 2);
+  }
+
   void
   check_periodic_cell(const Parameters &parameters)
   {

@@ -219,7 +219,7 @@ namespace mortise
             " % of what flows in and out does not cancel), and Poisson ratio "
             "0.5 lets no volume change; allowed: displacements that keep it, "
             "a boundary that is free, or a smaller ratio");
-        if (!has_free_strain(run.parameters)) // else Mean stress gives it
+        if (!has_free_volume(run.parameters)) // else Mean stress gives it
           run.log.warning(
             "body " + free.bodies +
             ": incompressible and enclosed, so that a constant pressure has no effect; the mean pressure is set to zero");

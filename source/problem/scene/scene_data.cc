@@ -165,7 +165,7 @@ namespace mortise
       return is_number(interface.offset) || is_number(interface.preload);
     };
     const auto is_given = [&](const std::string &text) {
-      return text == "free" ? false : is_number(text);
+      return text != "free" && is_number(text);
     };
     const auto any_given = [&](const std::array<std::string, 6> &all) {
       return std::any_of(all.begin(), all.end(), is_given);

@@ -31,6 +31,10 @@ namespace mortise
   bool
   has_free_strain(const Parameters &parameters);
 
+  /// Is one of xx, yy, zz, so that the volume follows?
+  bool
+  has_free_volume(const Parameters &parameters);
+
   /// Throws InputError for what does not go together.
   void
   check_periodic_cell(const Parameters &parameters);
