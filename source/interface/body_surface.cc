@@ -237,6 +237,19 @@ namespace mortise
     return result;
   }
 
+  void
+  place(const RigidMotion &motion, std::vector<SurfaceFace> &faces)
+  {
+    for (SurfaceFace &face : faces)
+      {
+        for (Point<3> &point : face.points)
+          point = motion(point);
+        for (Tensor<1, 3> &normal : face.vertex_normals)
+          normal = motion.rotation * normal;
+        face.finalize();
+      }
+  }
+
   BodySurface
   rigid_obstacle(const BodySurface &surface)
   {

@@ -143,11 +143,36 @@ namespace mortise
   unsigned int
   MultiplierSpace::n_component_rows(const BodySurface &slave) const
   {
-    if (n_directions == dim && !directed)
+    const bool is_tie = n_directions == dim && !directed;
+    if (is_tie && !turn)
       return n_owned();
     const unsigned int n =
       RowsOfNodes(body, slave, numbered.by_face, directed).n_owned();
-    return n_directions == dim ? 2 * n : n;
+    return is_tie ? n_owned() + n : n_directions == dim ? 2 * n : n;
+  }
+
+  void
+  MultiplierSpace::add_turned_masters(const BodySurface &slave,
+                                      const Index        first,
+                                      ComponentRows     &rows) const
+  {
+    RowsOfNodes of_nodes(body, slave, numbered.by_face, false);
+    of_nodes.number(first + n_owned());
+    rows.rows.owned.insert(rows.rows.owned.end(),
+                           of_nodes.owned.begin(),
+                           of_nodes.owned.end());
+    rows.across = by_face(of_nodes, false);
+    for (unsigned int s = 0; s < numbered.by_face.size(); ++s)
+      {
+        const FaceMultipliers &own = numbered.by_face[s];
+        const unsigned int     n   = own.n_nodes();
+        for (unsigned int r = 0; r + 1 < own.begin.size(); ++r)
+          for (unsigned int e = own.begin[r]; e < own.begin[r + 1]; ++e)
+            for (unsigned int c = 0; c < dim; ++c)
+              rows.frames.emplace_back(own.index[e],
+                                       of_nodes.rows[s][c * n + r % n],
+                                       own.weight[e] * (*turn)[r / n][c]);
+      }
   }
 
   MultiplierSpace::ComponentRows
@@ -160,6 +185,8 @@ namespace mortise
         result.rows = make_rows(slave, first);
         for (unsigned int i = 0; i < n_owned(); ++i)
           result.frames.emplace_back(first_number + i, first + i, 1.);
+        if (turn)
+          add_turned_masters(slave, first, result);
         return result;
       }
     const bool  has_across = n_directions == dim;

@@ -89,7 +89,8 @@ namespace mortise
       return rows;
     }
 
-    /// [D, -M] by node, once for the components that share their entries.
+    /// [D, -M] by node, before masters are turned, once for the components that
+    /// share their entries.
     /// @p across: see MultiplierSpace::ComponentRows, by coupling.
     SparseMatrix
     assemble_blocks(const std::vector<Coupling> &couplings,
@@ -165,6 +166,8 @@ namespace mortise
               }
             else
               all(slave, local.constraint, 1.);
+            if (coupling.is_turned)
+              rows = ConstraintRows((*across[number])[s]);
             for (const auto &partner : local.partners)
               all(coupling.interface->master_traces()[partner.master],
                   partner.constraint,

@@ -360,6 +360,26 @@ namespace mortise
   }
 
   void
+  add_jump(const Coupling &coupling, const Tensor<1, dim> &jump, Vector &rhs)
+  {
+    Vector sum = make_sums(1,
+                           coupling,
+                           rhs.locally_owned_elements(),
+                           rhs.get_mpi_communicator())[0];
+    for_each_part(coupling,
+                  [&](const unsigned int    s,
+                      const unsigned int    node,
+                      const Tensor<1, dim> &direction,
+                      const auto            index,
+                      const double          weight) {
+                    sum(index) +=
+                      weight * integral(coupling, s, node) * (jump * direction);
+                  });
+    sum.compress(VectorOperation::add);
+    rhs += sum;
+  }
+
+  void
   add_distances(const Coupling &coupling, Vector &rhs)
   {
     Vector sum = make_sums(1,

@@ -151,8 +151,10 @@ namespace mortise
                      const MPI_Comm                          comm)
   {
     const InterfaceHandler &interface = *coupling.interface;
-    InterfacePoints         point_at(interface, displacement, offset, comm);
-    InterfaceEvaluation     result;
+    // the master where it is
+    const Tensor<2, dim> back = transpose(coupling.placement.rotation);
+    InterfacePoints      point_at(coupling, displacement, offset, comm);
+    InterfaceEvaluation  result;
     result.energies.resize(interface.slave().faces.size(), 0.);
     std::vector<ActiveArea> of_slaves(interface.slave().faces.size()),
       of_masters(interface.master_faces().size());
@@ -160,6 +162,13 @@ namespace mortise
       on_masters(of_masters.size());
     for (unsigned int m = 0; m < of_masters.size(); ++m)
       of_masters[m].face = interface.master_faces()[m].id;
+    const auto is_known_on_master = [&](const std::array<bool, dim> &on_slave,
+                                        const unsigned int           c) {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!on_slave[d] && std::fabs(back[c][d]) > 1e-12)
+          return false;
+      return true;
+    };
     interface.visit_pairs([&](const unsigned int       s,
                               const unsigned int       m,
                               const IntegrationPoints &points) {
@@ -196,12 +205,14 @@ namespace mortise
           for (unsigned int c = 0; c < dim; ++c)
             at.is_known[c] = rows.reproduce_constants[c];
           on_slaves[s].push_back(at);
+          for (unsigned int c = 0; c < dim; ++c)
+            at.is_known[c] = is_known_on_master(rows.reproduce_constants, c);
           at.xi = Point<2>(points.master_eta[0][q], points.master_eta[1][q]);
-          at.x  = {points.master_x[0][q],
-                   points.master_x[1][q],
-                   points.master_x[2][q]};
-          at.normal   = face_normal(interface.master_faces()[m], at.xi);
-          at.traction = point.traction;
+          at.x  = coupling.placement.inverse({points.master_x[0][q],
+                                              points.master_x[1][q],
+                                              points.master_x[2][q]});
+          at.normal   = back * face_normal(interface.master_faces()[m], at.xi);
+          at.traction = back * point.traction;
           on_masters[m].push_back(at);
         }
     });
@@ -224,7 +235,7 @@ namespace mortise
                       const Offset            &offset,
                       const MPI_Comm           comm)
   {
-    InterfacePoints point_at(*coupling.interface, displacement, offset, comm);
+    InterfacePoints point_at(coupling, displacement, offset, comm);
     double          largest = 0.;
     coupling.interface->visit_pairs([&](const unsigned int       s,
                                         const unsigned int       m,

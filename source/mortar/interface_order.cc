@@ -76,7 +76,7 @@ namespace mortise
     const MPI_Comm                                comm)
     : is_coupled(numbering.owned().n_elements(), false)
   {
-    if (couplings.size() > 1)
+    if (couplings.size() > 1 || couplings.front().is_turned)
       for (unsigned int i = 0; i < couplings.size(); ++i)
         {
           IndexSet slave(numbering.size()), master(numbering.size());
@@ -87,15 +87,27 @@ namespace mortise
               add_masters(couplings[i], s, master);
             }
           slaves.push_back(gather(numbering.owned(), slave, comm));
-          Displacements others = gather(numbering.owned(), master, comm);
+          masters.push_back(gather(numbering.owned(), master, comm));
           coupled_by.emplace_back();
           std::set_union(slaves.back().begin(),
                          slaves.back().end(),
-                         others.begin(),
-                         others.end(),
+                         masters.back().begin(),
+                         masters.back().end(),
                          std::back_inserter(coupled_by.back()));
         }
     sort(couplings, comm);
+  }
+
+  std::vector<unsigned int>
+  InterfaceOrder::on_axis(const unsigned int i) const
+  {
+    Displacements result;
+    std::set_intersection(slaves[i].begin(),
+                          slaves[i].end(),
+                          masters[i].begin(),
+                          masters[i].end(),
+                          std::back_inserter(result));
+    return result;
   }
 
   void

@@ -4,11 +4,12 @@ namespace mortise
 {
   using namespace dealii;
 
-  InterfacePoints::InterfacePoints(const InterfaceHandler  &interface,
+  InterfacePoints::InterfacePoints(const Coupling          &coupling,
                                    const TraceDisplacement &displacement,
                                    const Offset            &offset,
                                    const MPI_Comm           comm)
-    : interface(interface)
+    : interface(*coupling.interface)
+    , placement(coupling.placement)
     , offset(offset)
   {
     const IndexSet owned    = displacement.free.locally_owned_elements();
@@ -56,9 +57,11 @@ namespace mortise
     result.normal = face_normal(interface.slave().faces[slave], xi);
     if (interface.slave().undeformed.empty())
       result.jump =
-        value(interface.master_traces()[m].basis(), masters[m], eta) -
+        placement.rotation *
+          value(interface.master_traces()[m].basis(), masters[m], eta) +
+        offset.jump -
         value(interface.slave().traces[slave].basis(), of_slave, xi);
-    result.offset = offset ? offset(result.position) : 0.;
+    result.offset = offset.gap ? offset.gap(result.position) : 0.;
     return result;
   }
 

@@ -236,6 +236,8 @@ namespace mortise
     , one_sided(coupling.law.is_one_sided())
     , directed(coupling.is_directed())
   {
+    if (coupling.is_turned)
+      turn = coupling.placement.rotation;
     const BodySurface &slave = coupling.interface->slave();
     for (const PartnerState &partner : partners)
       {

@@ -63,6 +63,7 @@ namespace mortise
                     inactive, undecided, friction)
     MORTISE_MEMBERS(PreloadSummary, force, shortening)
     MORTISE_MEMBERS(RigidPartSummary, name, point, displacement, rotation)
+    MORTISE_MEMBERS(PeriodicCellSummary, volume, mean_strain, mean_stress)
     MORTISE_MEMBERS(EquilibriumSummary, applied, reactions, sum)
     MORTISE_MEMBERS(SolverSummary, method, preconditioner, iterations,
                     relative_residual, active_sets, newton_iterations,
@@ -72,7 +73,8 @@ namespace mortise
     MORTISE_MEMBERS(AdaptivitySummary, quantity, value, target, estimate,
                     estimate_bulk, estimate_interface, correction, effectivity)
     MORTISE_MEMBERS(StepSummary, step, cycle, time, bodies, dofs, interfaces,
-                    rigid_parts, solver, equilibrium, errors, adaptivity, quantities)
+                    rigid_parts, solver, equilibrium, periodic_cell, errors,
+                    adaptivity, quantities)
 
     template <typename Visit>
     void

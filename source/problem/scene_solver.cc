@@ -209,5 +209,6 @@ namespace mortise
                                   part.where.size);
           }
       }
+    summary.periodic_cell = unknowns.cell(solution);
   }
 } // namespace mortise

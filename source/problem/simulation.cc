@@ -24,7 +24,7 @@ namespace mortise
     const char *const nothing_acts =
       "nothing acts on the scene; all results are zero. Loads are: Traction, Pressure, Force, Moment or a nonzero "
       "Displacement of a boundary; Body force, Gravity with a Density, Temperature with a Thermal expansion in a "
-      "body; Offset or Preload of an interface";
+      "body; Offset or Preload of an interface; Mean strain or Mean stress of the Periodic cell";
 
     /// Do smaller steps help where one does not converge?
     bool

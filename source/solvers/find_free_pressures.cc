@@ -116,7 +116,7 @@ namespace mortise
         Vector  rhs(y), scaled(force);
         normal.scale(scaled);
         system.apply_constraint(rhs, scaled);
-        SolverControl control(500, 1e-5 * rhs.l2_norm(), false, false);
+        SolverControl control(500, 1e-10 * rhs.l2_norm(), false, false);
         try
           {
             SolverCG<Vector>(control).solve(normal, y, rhs, Jacobi{residual});

@@ -2,7 +2,8 @@
 // that is derived with evaluate_interface(), of displacements and tractions
 // that are given: across a tie, along the normal where bodies slide, beside
 // what springs give way, and under contact of overlaps, tension, and the less
-// of gap and pressure at one point. The same on any number of ranks.
+// of gap and pressure at one point; and not across a periodic tie, whose jump
+// is given. The same on any number of ranks.
 #include <mortise/mortar/interface_evaluation.h>
 #include <verdict.h>
 
@@ -81,6 +82,20 @@ namespace
     verdict(what + " 1e-12", std::fabs(got - expected), 1e-12);
   }
 
+  /// With u_slave = Q u_master + a given jump = 0, of a quarter of a turn.
+  double
+  turned(TiedScene &scene)
+  {
+    RigidMotion &placement = scene.couplings[0].placement;
+    placement              = RigidMotion({{0., 0., 90.}}, {});
+    const Vec    jump({0.1, -0.2, 0.3});
+    const Vec    of_master = -1. * (transpose(placement.rotation) * jump);
+    const double result =
+      energy(scene, [&](const auto &) { return of_master; }, {}, {{}, jump});
+    placement = RigidMotion();
+    return result;
+  }
+
   void
   check_ties(const bool tetrahedra)
   {
@@ -112,14 +127,14 @@ namespace
                std::pow(0.1 / (1. + c / 10.), 2)));
     scene.couplings[0].law = {};
     check("offset" + of,
-          energy(
-            scene,
-            [](const auto &) {
-              return Vec({0, 0, -0.1});
-            },
-            {},
-            [](const auto &) { return 0.1; }),
+          energy(scene,
+                 [](const auto &) {
+                   return Vec({0, 0, -0.1});
+                 },
+                 {},
+                 {[](const auto &) { return 0.1; }, {}}),
           0.);
+    check("periodic" + of, turned(scene), 0.);
   }
 
   void

@@ -173,6 +173,28 @@ expect 2 'zmax' "$scene" --set 'Interface glue/Slave=lower: top'
 expect 2 'each boundary once' "$scene" --set 'Interface glue/Slave=lower: zmax, zmax'
 expect 2 'no boundary .zmux' "$scene" --set 'Interface glue/Slave=lower: zmax, zmux'
 expect 2 'expression in t' "$scene" --set 'Interface glue/Preload=x'
+glue='Interface glue/'
+expect 2 'Translation.*got nothing with Periodic = translation' "$scene" --set "${glue}Periodic=translation"
+expect 2 'Translation.*got zero' "$scene" --set "${glue}Periodic=translation" --set "${glue}Translation=0, 0, 0"
+expect 2 'Translation.*got .1, 0.' "$scene" --set "${glue}Periodic=translation" --set "${glue}Translation=1, 0"
+expect 2 'Rotation.*got nothing with Periodic = rotation' "$scene" --set "${glue}Periodic=rotation" --set "${glue}Reference point=0, 0, 0"
+expect 2 'Rotation.*got zero' "$scene" --set "${glue}Periodic=rotation" --set "${glue}Rotation=0, 0, 0"
+expect 2 'a rotation without Periodic = rotation' "$scene" --set "${glue}Periodic=translation" --set "${glue}Translation=0, 0, 1" --set "${glue}Rotation=0, 0, 30"
+expect 2 'a translation without Periodic' "$scene" --set "${glue}Translation=0, 0, 1"
+expect 2 'a point without Periodic = rotation' "$scene" --set "${glue}Reference point=0, 0, 1"
+expect 2 'a periodic interface with Law = slide' "$scene" --set "${glue}Periodic=translation" --set "${glue}Translation=0, 0, 1" --set "${glue}Law=slide"
+expect 2 'a preload of a periodic interface' "$scene" --set "${glue}Periodic=translation" --set "${glue}Translation=0, 0, 1" --set "${glue}Preload=1"
+expect 2 'Periodic.*got .turn.' "$scene" --set "${glue}Periodic=turn"
+expect 2 'do not meet.*after the master is moved' "$scene" --set "${glue}Periodic=translation" --set "${glue}Translation=0, 0, 1"
+expect 2 'do not meet.*after the master is moved' "$scene" --set "${glue}Periodic=rotation" --set "${glue}Rotation=0, 0, 30" --set "${glue}Reference point=9, 0, 0"
+expect 2 'where no interface has Periodic = translation' "$scene" --set 'Periodic cell/Mean strain=0; 0; 0.1; 0; 0; 0'
+expect 2 'where no interface has Periodic = translation' "$scene" --set 'Periodic cell/Mean strain=free; 0; 0; 0; 0; 0' \
+  --set "${glue}Periodic=rotation" --set "${glue}Rotation=0, 0, 30"
+cell=("$scene" --set "${glue}Periodic=translation" --set "${glue}Translation=0, 0, 1")
+expect 2 'more free components than the 1 different' "${cell[@]}" --set 'Periodic cell/Mean strain=free; 0; 0; 0; 0; 0'
+expect 2 'Mean stress, component xx.*beside the Mean strain .0.' "${cell[@]}" --set 'Periodic cell/Mean stress=1; 0; 0; 0; 0; 0'
+expect 2 'these are 3 components, not 6' "${cell[@]}" --set 'Periodic cell/Mean strain=1; 0; 0'
+expect 2 'Mean strain.*component yz: got .x.' "${cell[@]}" --set 'Periodic cell/Mean strain=0; 0; 0; x; 0; 0'
 material='Body lower/Material/'
 expect 2 'Strain.*got small with Law = neo-Hookean' "$scene" --set "${material}Law=neo-Hookean" --set "${material}Strain=small"
 expect 2 'Yield stress.*got nothing with Law = J2 plasticity' "$scene" --set "${material}Law=J2 plasticity"
@@ -199,6 +221,8 @@ expect 2 'Quantity.*with Law = J2 plasticity of body lower' "$scene" --set "${ma
   --set 'Adaptivity/Target error=0.1' --set 'Adaptivity/Quantity=p, z' --set 'Output/Points=p: lower: 0.5, 0.5, 0'
 expect 2 'Control.*arc length with the Preload of interface glue' "$scene" "${steps[@]}" --set "${material}Law=neo-Hookean" \
   --set 'Interface glue/Preload=1'
+expect 2 'Control.*arc length with free components' "${cell[@]}" "${steps[@]}" --set "${material}Law=neo-Hookean" \
+  --set 'Periodic cell/Mean strain=0; 0; free; 0; 0; 0'
 expect 2 'Control.*arc length with Adaptivity/Target error' "$prm/balloon.prm" "${steps[@]}" --set 'Adaptivity/Target error=0.1'
 expect 2 'in mixed form with Poisson ratio 0.49' "$scene" --set "${material}Law=neo-Hookean" --set "${material}Poisson ratio=0.49" \
   --set 'Body lower/Degree=2' --set 'Exact solution/Displacement=x*y; 0; 0'

@@ -6,6 +6,7 @@
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <mortise/base/rigid_motion.h>
 #include <mortise/body/body.h>
 #include <mortise/body/boundary_faces.h>
 #include <mortise/body/elements/trace_basis.h>
@@ -120,6 +121,10 @@ namespace mortise
   /// BodySurface::undeformed of @p surface, whose body is displaced.
   std::vector<SurfaceFace>
   undeformed_faces(const Body &body, const BodySurface &surface);
+
+  /// Move @p faces by @p motion.
+  void
+  place(const RigidMotion &motion, std::vector<SurfaceFace> &faces);
 
   /// A rigid surface that coincides with @p surface and faces it; its traces
   /// have no columns.

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/index_set.h>
 
+#include <mortise/base/rigid_motion.h>
 #include <mortise/base/types.h>
 #include <mortise/contact/friction.h>
 #include <mortise/mortar/contact_nodes.h>
@@ -25,6 +26,10 @@ namespace mortise
     /// those that meet no master.
     unsigned int number       = 0;
     bool         is_displaced = false; ///< its bodies, on all ranks
+    /// Of the master, whose displacements it turns: u_slave = Q u_master. Its
+    /// surface in the interface is the moved one.
+    RigidMotion placement;
+    bool        is_turned = false; ///< Q is not the identity
     std::unique_ptr<InterfaceHandler> interface;
     std::vector<std::vector<Frame>>   frames; ///< see slave_frames()
     std::vector<LocalCoupling>        local;  ///< by slave face
@@ -169,6 +174,12 @@ namespace mortise
     const Coupling                                                  &coupling,
     const std::function<double(const dealii::Point<dim> &position)> &offset,
     Vector                                                          &rhs);
+
+  /// Likewise int psi . @p jump, a constant.
+  void
+  add_jump(const Coupling               &coupling,
+           const dealii::Tensor<1, dim> &jump,
+           Vector                       &rhs);
 
   /// Likewise int psi alpha with the distance alpha of the bodies where they
   /// are paired, for interfaces that follow the bodies without contact nodes.

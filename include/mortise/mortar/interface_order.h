@@ -49,6 +49,11 @@ namespace mortise
       return is_coupled;
     }
 
+    /// Those that interface @p i couples with themselves, positions among the
+    /// owned displacements: on the axis about which a master is turned.
+    std::vector<unsigned int>
+    on_axis(unsigned int i) const;
+
   private:
     /// Positions among the owned displacements, ascending.
     using Displacements = std::vector<unsigned int>;
@@ -56,7 +61,7 @@ namespace mortise
     void
     sort(const std::vector<Coupling> &couplings, MPI_Comm comm);
 
-    std::vector<Displacements> slaves, coupled_by; ///< by interface
+    std::vector<Displacements> slaves, masters, coupled_by; ///< by interface
     std::vector<unsigned int>  sequence;
     std::vector<bool>          is_coupled;
   };

@@ -16,9 +16,14 @@ namespace mortise
     Vector prescribed; ///< added to them
   };
 
-  /// The gap in addition to the mesh gap, a length, at points of the slave;
-  /// null: zero.
-  using Offset = std::function<double(const dealii::Point<dim> &position)>;
+  /// What the sides are apart in addition to the mesh gap, a length.
+  struct Offset
+  {
+    /// The gap at points of the slave; null: zero.
+    std::function<double(const dealii::Point<dim> &position)> gap;
+    /// u_slave - Q u_master of a periodic tie.
+    dealii::Tensor<1, dim> jump;
+  };
 
   /// The bound of tangential tractions at points of the slave; null: none.
   using BoundOfFriction =
@@ -27,10 +32,10 @@ namespace mortise
   class InterfacePoints
   {
   public:
-    /// @p interface must live on; it is undeformed, or has the present
+    /// @p coupling must live on; it is undeformed, or has the present
     /// @p displacement, so that there are no jumps but its gaps. @p offset is
     /// kept. Collective.
-    InterfacePoints(const InterfaceHandler  &interface,
+    InterfacePoints(const Coupling          &coupling,
                     const TraceDisplacement &displacement,
                     const Offset            &offset,
                     MPI_Comm                 comm);
@@ -56,6 +61,7 @@ namespace mortise
           const dealii::Point<2> &xi);
 
     const InterfaceHandler   &interface;
+    const RigidMotion        &placement;
     const Offset              offset;
     Vector                    free, prescribed;
     std::vector<Coefficients> masters;

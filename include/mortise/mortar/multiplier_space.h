@@ -24,6 +24,7 @@
 #include <mortise/mortar/slave_frames.h>
 
 #include <array>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -185,7 +186,8 @@ namespace mortise
     {
       Rows rows; ///< of all directions, in numbers of component rows
       /// By face: those of tractions across the normals, where
-      /// LocalCoupling::directed is that of the others; else empty.
+      /// LocalCoupling::directed is that of the others, or of masters that are
+      /// turned; else empty.
       std::vector<FaceMultipliers> across;
       /// (multiplier, component row, weight), repeated for each face.
       std::vector<std::tuple<Index, Index, double>> frames;
@@ -201,6 +203,11 @@ namespace mortise
     component_rows(const BodySurface &slave, Index first) const;
 
   private:
+    /// Q u of the master at the nodes of the slave. Collective.
+    void
+    add_turned_masters(const BodySurface &slave,
+                       Index              first,
+                       ComponentRows     &rows) const;
     /// Rows with owned multipliers numbered from @p first on. Collective.
     Rows
     make_rows(const BodySurface &slave, Index first) const;
@@ -210,6 +217,8 @@ namespace mortise
     unsigned int n_directions;              ///< dim, or 1: along the normals
     bool         one_sided;
     bool         directed; ///< see LocalCoupling::is_directed()
+    /// Q of a master that is turned.
+    std::optional<dealii::Tensor<2, dim>> turn;
     /// By face and node, if tractions across them have multipliers, too.
     std::vector<std::vector<dealii::Tensor<1, dim>>> normals;
     std::vector<bool>                                has_dual; ///< by face

@@ -98,6 +98,15 @@ namespace mortise
     double shortening = 0.; ///< by how much the sides approach
   };
 
+  /// Of the cell that periodic ties repeat: components xx, yy, zz, yz, zx, xy
+  /// of the mean strain, shears halves of the angle, and of the mean stress,
+  /// force per area.
+  struct PeriodicCellSummary
+  {
+    double              volume = 0.;
+    std::vector<double> mean_strain, mean_stress;
+  };
+
   struct InterfaceSummary
   {
     std::string   name;
@@ -183,13 +192,14 @@ namespace mortise
   {
     unsigned int step  = 0; ///< from 1 on, or 0 in a scene without steps
     unsigned int cycle = 0;
-    std::optional<double>             time; ///< in a scene with steps
-    std::vector<BodySummary>          bodies;
-    DofSummary                        dofs;
-    std::vector<InterfaceSummary>     interfaces;
-    std::vector<RigidPartSummary>     rigid_parts;
-    std::optional<SolverSummary>      solver;      ///< absent until solved
-    std::optional<EquilibriumSummary> equilibrium; ///< absent until solved
+    std::optional<double>              time; ///< in a scene with steps
+    std::vector<BodySummary>           bodies;
+    DofSummary                         dofs;
+    std::vector<InterfaceSummary>      interfaces;
+    std::vector<RigidPartSummary>      rigid_parts;
+    std::optional<SolverSummary>       solver;        ///< absent until solved
+    std::optional<EquilibriumSummary>  equilibrium;   ///< absent until solved
+    std::optional<PeriodicCellSummary> periodic_cell; ///< if there is one
     std::optional<ErrorSummary> errors; ///< absent without an exact solution
     std::optional<AdaptivitySummary> adaptivity; ///< with a target
     /// User-requested functionals in the order of the request: point values,

@@ -30,8 +30,8 @@ namespace mortise
     PathState    path; ///< with arc-length control
     /// Absent before it is known; before the first step a guess.
     std::optional<ContactRecords> contact;
-    /// By interface, the shortening of its preload, a length; empty before the
-    /// first step.
+    /// By interface, the shortening of its preload, a length; then the mean
+    /// strain of a periodic cell. Empty before the first step.
     std::vector<double> shortenings;
     /// The motions of rigid parts, one after the other; empty before the first
     /// step.

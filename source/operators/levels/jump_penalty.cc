@@ -306,6 +306,33 @@ namespace mortise
           normal /= length;
       return normals;
     }
+    /// By node of a coupling whose master is turned: the direction of component
+    /// @p d of the slave, and that which Q turns to it; none on the axis.
+    std::vector<Tensor<1, dim>>
+    turned_directions(const Layout      &layout,
+                      const unsigned int number,
+                      const Coupling    &coupling,
+                      const unsigned int d)
+    {
+      std::vector<Tensor<1, dim>> directions(
+        (layout.locally_owned_size() + layout.n_ghost_indices()) / dim);
+      std::vector<bool> of_slave(directions.size(), false), of_master(of_slave);
+      Tensor<1, dim>    on_slave;
+      const Tensor<1, dim> on_master = coupling.placement.rotation[d];
+      on_slave[d]                    = 1.;
+      for_each_side(
+        coupling, [&](const FaceTrace &trace, const auto &, const double sign) {
+          for (const unsigned int index : indices_on(layout, trace, number))
+            {
+              directions[index / dim] = sign > 0. ? on_slave : on_master;
+              (sign > 0. ? of_slave : of_master)[index / dim] = true;
+            }
+        });
+      for (unsigned int i = 0; i < directions.size(); ++i)
+        if (of_slave[i] && of_master[i])
+          directions[i] = Tensor<1, dim>();
+      return directions;
+    }
   } // namespace
 
   std::shared_ptr<const JumpPenalties>
@@ -319,10 +346,22 @@ namespace mortise
       {
         Couplings of_kind{along_normals, {}};
         for (const Coupling &coupling : couplings)
-          if (along_normals ?
-                coupling.law.is_compliant() || coupling.law.has_friction() ||
-                  coupling.law.constrained == ConstrainedDirections::normal :
-                coupling.law.constrained == ConstrainedDirections::all)
+          if (coupling.is_turned)
+            {
+              for (unsigned int d = 0; d < dim && !along_normals; ++d)
+                {
+                  penalties.parts.push_back(
+                    make_penalty(layout, number, {false, {&coupling}}));
+                  penalties.parts.back().normals =
+                    turned_directions(layout, number, coupling, d);
+                }
+            }
+          else if (along_normals ?
+                     coupling.law.is_compliant() ||
+                       coupling.law.has_friction() ||
+                       coupling.law.constrained ==
+                         ConstrainedDirections::normal :
+                     coupling.law.constrained == ConstrainedDirections::all)
             of_kind.all.push_back(&coupling);
         if (!along_normals && !of_kind.all.empty())
           penalties.parts.push_back(make_penalty(layout, number, of_kind));

@@ -4,6 +4,7 @@
 #include <mortise/base/run_log.h>
 #include <mortise/problem/input/formulation.h>
 #include <mortise/problem/input/interface_law.h>
+#include <mortise/problem/input/periodic_cell.h>
 
 #include <algorithm>
 
@@ -126,6 +127,10 @@ namespace mortise
                           "arc length with Law = " + name_of(interface.law) +
                             " of interface " + interface.name,
                           "load: arc length knows no contact");
+        if (by_length && has_free_strain(parameters))
+          parameters.fail(control,
+                          "arc length with free components of the Mean strain",
+                          "load: they follow from given stresses");
         if (by_length && interface.preload)
           parameters.fail(control,
                           "arc length with the Preload of interface " +

@@ -165,6 +165,32 @@ namespace mortise
         "ones at degree 1 only, else standard ones.",
         Allowed::one_of({"standard", "dual"}));
       section.add(
+        "Periodic",
+        interface.periodic,
+        "Law = tie: the master is moved to the slave before they are paired, as opposite faces of a cell that repeats "
+        "itself are. translation: by Translation, and the displacement of the slave is that of the master and the Mean "
+        "strain of the Periodic cell times Translation. rotation: by Rotation about Reference point, and the "
+        "displacement of the slave is that of the master turned by it (cyclic symmetry).",
+        Allowed::one_of({"none", "translation", "rotation"}));
+      section.add(
+        "Translation",
+        interface.translation,
+        {"Periodic = translation: the vector from the master to the slave [].",
+         "length"},
+        {"3 numbers"});
+      section.add(
+        "Rotation",
+        interface.rotation,
+        {"Periodic = rotation: the rotation from the master to the slave, a vector along the axis [].",
+         "degrees"},
+        {"3 numbers"});
+      section.add(
+        "Reference point",
+        interface.reference_point,
+        {"Periodic = rotation: a point of the axis []. Empty: the origin.",
+         "length"},
+        {"3 numbers"});
+      section.add(
         "Search distance",
         "0.5",
         {"Largest distance of the two faces of a pair, as a fraction of the size of the larger face [], or a length. "
@@ -254,6 +280,47 @@ namespace mortise
              {value.number(x[0]), value.number(x[1]), value.number(x[2])}});
         }
       return points;
+    }
+
+    void
+    declare_periodic_cell(const ParameterSection &section,
+                          Parameters             &parameters)
+    {
+      const auto add = [&](const std::string          &name,
+                           std::array<std::string, 6> &member,
+                           const Meaning              &meaning,
+                           const std::string          &allowed) {
+        section.add(
+          name,
+          "0; 0; 0; 0; 0; 0",
+          meaning,
+          {allowed},
+          [&member](const ParameterValue &value) {
+            const auto parts = split_outside_parentheses(value.text, ';');
+            if (parts.size() != member.size())
+              value.fail(in_quotes(value.text),
+                         value.allowed.words + " (these are " +
+                           std::to_string(parts.size()) +
+                           " components, not 6)");
+            std::copy(parts.begin(), parts.end(), member.begin());
+          },
+          "list of expressions");
+      };
+      add(
+        "Mean strain",
+        parameters.mean_strain,
+        {"Components xx; yy; zz; yz; zx; xy of the mean strain of the cell that interfaces with Periodic = translation "
+         "repeat []; shears are those of the tensor, half of the angle. free: an unknown, to which Mean stress belongs. "
+         "With finite strains it is the mean gradient of the displacement.",
+         "-"},
+        "six expressions in t, or free, with ';' between them");
+      add(
+        "Mean stress",
+        parameters.mean_stress,
+        {"Components of the mean stress where Mean strain is free [], per volume of the cell between three translations, "
+         "or, with fewer, of the bodies.",
+         "force per area"},
+        "six expressions in t with ';' between them");
     }
 
     void
@@ -355,6 +422,7 @@ namespace mortise
       declare_interface(scene.subsection("Interface " + interface.name),
                         interface,
                         parameters);
+    declare_periodic_cell(scene.subsection("Periodic cell"), parameters);
     declare_exact_solution(scene.subsection("Exact solution"),
                            parameters.exact_solution);
     declare_solver(scene.subsection("Solver"), parameters.solver);

@@ -6,6 +6,7 @@
 #include <mortise/problem/input/formulation.h>
 #include <mortise/problem/input/interface_law.h>
 #include <mortise/problem/input/parameter_file.h>
+#include <mortise/problem/input/periodic_cell.h>
 #include <mortise/problem/input/quantity.h>
 #include <unistd.h>
 
@@ -290,6 +291,7 @@ namespace mortise
     for (const InterfaceParameters &interface : parameters.interfaces)
       check_interface(parameters, interface);
     check_pairs_of_interfaces(parameters);
+    check_periodic_cell(parameters);
     check_names_of_interfaces(parameters);
     check_formulations(parameters);
     check_nonlinear_laws(parameters);

@@ -302,7 +302,7 @@ namespace mortise
       supports.local_element(k) = reactions.local_element(k);
     const Pairing &interfaces = discretisation.interfaces();
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
-      if (interfaces.sides()[i].is_support)
+      if (interfaces.sides()[i].is_support || interfaces.all()[i].is_turned)
         supports -= dirichlet.forces_of(i, solved.solution.multiplier);
     // which nodes of rigid parts bear, too
     const Tensor<1, dim> sum = sum_over_nodes(supports) - on_rigid_parts;

@@ -178,6 +178,22 @@ namespace mortise
     }
 
     void
+    print_periodic_cell(RunLog &log, const PeriodicCellSummary &cell)
+    {
+      log.line();
+      Rows       rows = {{"periodic cell", "xx", "yy", "zz", "yz", "zx", "xy"}};
+      const auto add  = [&](const std::string         &name,
+                           const std::vector<double> &values) {
+        rows.push_back({name});
+        for (const double value : values)
+          rows.back().push_back(RunLog::number(value));
+      };
+      add("mean strain", cell.mean_strain);
+      add("mean stress", cell.mean_stress);
+      log.table(rows);
+    }
+
+    void
     print_errors(RunLog &log, const StepSummary &step)
     {
       log.line();
@@ -241,6 +257,8 @@ namespace mortise
     print_rigid_parts(log, step);
     if (step.equilibrium)
       print_equilibrium(log, *step.equilibrium);
+    if (step.periodic_cell)
+      print_periodic_cell(log, *step.periodic_cell);
     if (step.errors)
       print_errors(log, step);
     if (step.adaptivity)

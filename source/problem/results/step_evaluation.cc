@@ -1,3 +1,4 @@
+#include <mortise/problem/input/periodic_cell.h>
 #include <mortise/problem/results/step_evaluation.h>
 
 namespace mortise
@@ -84,15 +85,21 @@ namespace mortise
   Offset
   StepEvaluation::offset(const unsigned int i) const
   {
-    const Offset given =
-      solved.data.offset(discretisation.interfaces().sides()[i]);
+    Offset result{solved.data.offset(discretisation.interfaces().sides()[i]),
+                  {}};
     const double shortening =
       solved.shortenings.empty() ? 0. : solved.shortenings[i];
-    if (shortening == 0.)
-      return given;
-    return [given, shortening](const Point<dim> &x) {
-      return (given ? given(x) : 0.) + shortening;
-    };
+    if (shortening != 0.)
+      result.gap = [given = result.gap, shortening](const Point<dim> &x) {
+        return (given ? given(x) : 0.) + shortening;
+      };
+    const std::size_t n        = discretisation.interfaces().all().size();
+    const Coupling   &coupling = discretisation.interfaces().all()[i];
+    if (!coupling.is_turned)
+      for (std::size_t j = n; j < solved.shortenings.size(); ++j)
+        result.jump += solved.shortenings[j] *
+                       (unit_strain(j - n) * coupling.placement.translation);
+    return result;
   }
 
   const InterfaceEvaluation &

@@ -1,6 +1,7 @@
 #include <mortise/base/error.h>
 #include <mortise/operators/body_volume.h>
 #include <mortise/operators/follower_pressures.h>
+#include <mortise/problem/input/periodic_cell.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/support/rigid_motions.h>
 #include <mortise/solvers/multipliers/redundant_multipliers.h>
@@ -174,6 +175,15 @@ namespace mortise
     });
   }
 
+  std::vector<SystemVector>
+  Discretisation::free_states() const
+  {
+    std::vector<SystemVector> result;
+    for (const FreePressure &free : free_pressures)
+      result.push_back(free.enclosure.state);
+    return result;
+  }
+
   void
   Discretisation::lift(SceneLoad &load) const
   {
@@ -223,9 +233,10 @@ namespace mortise
             " % of what flows in and out does not cancel), and Poisson ratio "
             "0.5 lets no volume change; allowed: displacements that keep it, "
             "a boundary that is free, or a smaller ratio");
-        run.log.warning(
-          "body " + free.bodies +
-          ": incompressible and enclosed, so that a constant pressure has no effect; the mean pressure is set to zero");
+        if (!has_free_volume(run.parameters)) // else Mean stress gives it
+          run.log.warning(
+            "body " + free.bodies +
+            ": incompressible and enclosed, so that a constant pressure has no effect; the mean pressure is set to zero");
       }
     if (system.mixed())
       system.free_pressures.project_residual(load.rhs.pressure);

@@ -110,6 +110,9 @@ namespace mortise
     BodySurface master_surface =
       given.is_support ? rigid_obstacle(slave_surface) :
                          surface(given.master, faces_of(given, given.master));
+    const RigidMotion placement = given.placement();
+    if (given.periodic != Periodicity::none)
+      place(placement, master_surface.faces);
     if (moved)
       slave_surface.undeformed =
         undeformed_faces(*spaces.bodies[given.slave.body], slave_surface);
@@ -123,7 +126,15 @@ namespace mortise
     };
     options.slave_boundary  = boundary(given.slave);
     options.master_boundary = boundary(given.master);
+    if (given.periodic != Periodicity::none)
+      options.master_boundary = [placement, of = options.master_boundary] {
+        auto faces = of();
+        place(placement, faces);
+        return faces;
+      };
     Coupling coupling;
+    coupling.placement    = placement;
+    coupling.is_turned    = given.periodic == Periodicity::rotation;
     coupling.law          = interface_law(run.parameters, given);
     coupling.is_displaced = moved;
     coupling.interface =
@@ -146,7 +157,8 @@ namespace mortise
                          spaces.choice.method != SolverMethod::direct,
                          given.multiplier == "dual" ? MultiplierBasis::dual :
                                                       MultiplierBasis::standard,
-                         !law.is_compliant() && !given.is_support,
+                         !law.is_compliant() && !given.is_support &&
+                           !coupling.is_turned,
                          law.constrained == ConstrainedDirections::normal ||
                              coupling.is_directed() ?
                            coupling.frames :
@@ -301,7 +313,9 @@ namespace mortise
         (given.search_distance.length > 0. ?
            RunLog::number(given.search_distance.length) :
            RunLog::number(given.search_distance.by_size) + " face sizes") +
-        ", or all are hidden by a body. Check positions, names and Search distance");
+        (given.periodic == Periodicity::none ?
+           ", or all are hidden by a body. Check positions, names and Search distance" :
+           " after the master is moved. Check that Translation or Rotation leads from the master to the slave, and not back"));
     if (report.failed_pairs > 0)
       run.log.warning("interface " + name + ": the projection of " +
                       std::to_string(report.failed_pairs) +

@@ -122,7 +122,7 @@ namespace mortise
     std::map<std::string, std::vector<bool>> taken_before;
     for (const unsigned int i : shared.order())
       {
-        const std::vector<bool> &coupled =
+        std::vector<bool> coupled =
           interfaces[i].direction ?
             taken_before.try_emplace(interfaces[i].boundary, shared.coupled())
               .first->second :
@@ -130,7 +130,10 @@ namespace mortise
         const SideParameters &slave    = interfaces[i].slave;
         const Body           &body     = *spaces.bodies[slave.body];
         Coupling             &coupling = couplings[i];
-        coupling.multipliers           = std::make_unique<MultiplierSpace>(
+        if (coupling.is_turned)
+          for (const unsigned int k : shared.on_axis(i))
+            coupled[k] = true;
+        coupling.multipliers = std::make_unique<MultiplierSpace>(
           body, coupling, states[i], constrained_dofs(slave.body, coupled));
         shared.add(i);
       }
@@ -161,6 +164,7 @@ namespace mortise
                         interfaces[i].is_support ? TieSupport::ground :
                                                    interfaces[i].master.body,
                         multiplier_moments(couplings[i], owned, run.comm),
+                        couplings[i].placement,
                         report.covered_area / report.slave_area,
                         couplings[i].law.constrained,
                         {},
@@ -191,7 +195,8 @@ namespace mortise
       {
         const InterfaceParameters &given = interfaces[i];
         can_exchange.push_back(!given.is_support && !is_patch(i) &&
-                               !given.follows_bodies);
+                               !given.follows_bodies &&
+                               given.periodic == Periodicity::none);
         if (!can_exchange.back())
           continue;
         const auto &master =

@@ -171,7 +171,15 @@ namespace mortise
     const auto moves = [&](const InterfaceParameters &interface) {
       return is_number(interface.offset) || is_number(interface.preload);
     };
+    const auto is_given = [&](const std::string &text) {
+      return text != "free" && is_number(text);
+    };
+    const auto any_given = [&](const std::array<std::string, 6> &all) {
+      return std::any_of(all.begin(), all.end(), is_given);
+    };
     return parameters.exact_solution.kind == ExactKind::expressions ||
+           any_given(parameters.mean_strain) ||
+           any_given(parameters.mean_stress) ||
            std::any_of(parameters.bodies.begin(),
                        parameters.bodies.end(),
                        has_loads) ||

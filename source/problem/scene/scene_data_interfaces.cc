@@ -1,6 +1,7 @@
 // What a scene says of its interfaces at one time: members of SceneData.
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/problem/input/periodic_cell.h>
 #include <mortise/problem/scene/scene_data.h>
 
 #include <sstream>
@@ -36,6 +37,40 @@ namespace mortise
            checks(Expression(*given.preload, where, time).value(Point<dim>()),
                   Point<dim>(),
                   where + ": " + in_quotes(*given.preload));
+  }
+
+  namespace
+  {
+    double
+    number_at(const std::string &text,
+              const std::string &where,
+              const double       time,
+              FieldChecks       &checks)
+    {
+      return checks(Expression(text, where, time).value(Point<dim>()),
+                    Point<dim>(),
+                    where + ": " + in_quotes(text));
+    }
+  } // namespace
+
+  std::optional<double>
+  SceneData::mean_strain(const unsigned int k) const
+  {
+    if (is_free_strain(parameters, k))
+      return {};
+    return factor * number_at(parameters.mean_strain[k],
+                              parameters.where("Periodic cell/Mean strain"),
+                              time,
+                              checks);
+  }
+
+  double
+  SceneData::mean_stress(const unsigned int k) const
+  {
+    return factor * number_at(parameters.mean_stress[k],
+                              parameters.where("Periodic cell/Mean stress"),
+                              time,
+                              checks);
   }
 
   std::function<FrictionBound(const Point<dim> &)>

@@ -107,6 +107,18 @@ namespace mortise
 
   namespace
   {
+    /// What @p m does on a master that is moved by @p placement, as moments of
+    /// its own displacements where it is.
+    MultiplierMoment
+    where_master_is(const RigidMotion &placement, const MultiplierMoment &m)
+    {
+      const auto back = transpose(placement.rotation);
+      return {back * m.weight,
+              back *
+                (m.moment - outer_product(m.weight, placement.translation)) *
+                placement.rotation};
+    }
+
     /// Do the multipliers hold along one direction, as on a plane? Collective.
     bool
     is_plane(const TieSupport &tie, const MPI_Comm comm)
@@ -138,7 +150,7 @@ namespace mortise
                          tie.constrained == ConstrainedDirections::normal &&
                            !is_plane(tie, comm)};
     const auto    rows = [&](const MultiplierMoment &m) {
-      Motion minus = row_of(master, m);
+      Motion minus = row_of(master, where_master_is(tie.placement, m));
       for (double &entry : minus)
         entry *= -1.;
       return std::vector<Motion>{row_of(slave, m), minus};

@@ -133,6 +133,11 @@ def equilibrium(results: Results) -> str:
     size = _force_size([results.last])
     rows = [[name, *e[key], _norm(e[key])] for name, key in (("loads", "applied"), ("reactions", "reactions"), ("sum", "sum"))]
     text = table(["forces on all bodies", "x", "y", "z", "magnitude"], rows, name="equilibrium")
+    if "periodic_cell" in results.last:
+        cell = results.last["periodic_cell"]
+        text += "<h3>Periodic cell</h3>" + table(
+            ["", "xx", "yy", "zz", "yz", "zx", "xy"],
+            [[name.replace("_", " "), *cell[name]] for name in ("mean_strain", "mean_stress")], name="periodic_cell")
     return text + (paragraph(f"The sum is {number((_norm(e['sum']) or 0.0) / size)} of the largest force of the scene; it is zero up to "
                              "the solver's tolerance.", "note") if size else "")
 

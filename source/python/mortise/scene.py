@@ -63,6 +63,17 @@ class Interface(Section):
     """Space of the Lagrange multiplier (the traction): standard, the traces of the slave's displacements, or dual, functions
     biorthogonal to those of the slave's nodes, which are eliminated at no cost. Triangles have dual ones at degree 1 only, else
     standard ones. Allowed: one of: standard, dual."""
+    periodic: Literal["none", "translation", "rotation"] = parameter("Periodic", 'none', "selection")
+    """Law = tie: the master is moved to the slave before they are paired, as opposite faces of a cell that repeats itself are.
+    translation: by Translation, and the displacement of the slave is that of the master and the Mean strain of the Periodic cell
+    times Translation. rotation: by Rotation about Reference point, and the displacement of the slave is that of the master turned
+    by it (cyclic symmetry). Allowed: one of: none, translation, rotation."""
+    translation: Sequence[float] = parameter("Translation", (), "list of reals", "length")
+    """Periodic = translation: the vector from the master to the slave [length]. Allowed: 3 numbers."""
+    rotation: Sequence[float] = parameter("Rotation", (), "list of reals", "degrees")
+    """Periodic = rotation: the rotation from the master to the slave, a vector along the axis [degrees]. Allowed: 3 numbers."""
+    reference_point: Sequence[float] = parameter("Reference point", (), "list of reals", "length")
+    """Periodic = rotation: a point of the axis [length]. Empty: the origin. Allowed: 3 numbers."""
     search_distance: str = parameter("Search distance", '0.5', "text", "-")
     """Largest distance of the two faces of a pair, as a fraction of the size of the larger face [-], or a length. Partners face
     the slave and are not hidden by a body. With Adaptivity the distance for contact is at least the relative motion of the sides
@@ -70,6 +81,19 @@ class Interface(Section):
     quadrature_points: str = parameter("Quadrature points", 'auto', "text")
     """Quadrature points per direction on an integration cell. auto: by the degrees and the geometry. Allowed: auto, or an integer
     from 1 to 100."""
+
+
+@dataclass
+class PeriodicCell(Section):
+    """The parameters in `Periodic cell`."""
+
+    mean_strain: Expressions = parameter("Mean strain", '0; 0; 0; 0; 0; 0', "list of expressions", "-")
+    """Components xx; yy; zz; yz; zx; xy of the mean strain of the cell that interfaces with Periodic = translation repeat [-];
+    shears are those of the tensor, half of the angle. free: an unknown, to which Mean stress belongs. With finite strains it is
+    the mean gradient of the displacement. Allowed: six expressions in t, or free, with ';' between them."""
+    mean_stress: Expressions = parameter("Mean stress", '0; 0; 0; 0; 0; 0', "list of expressions", "force per area")
+    """Components of the mean stress where Mean strain is free [force per area], per volume of the cell between three
+    translations, or, with fewer, of the bodies. Allowed: six expressions in t with ';' between them."""
 
 
 @dataclass
@@ -192,6 +216,8 @@ class Scene(SceneFile):
     """Sections `Body NAME` by NAME."""
     interfaces: Dict[str, Interface] = subsections("Interface", Interface)
     """Sections `Interface NAME` by NAME."""
+    periodic_cell: PeriodicCell = subsection("Periodic cell", PeriodicCell)
+    """The section `Periodic cell`."""
     exact_solution: ExactSolution = subsection("Exact solution", ExactSolution)
     """The section `Exact solution`."""
     solver: Solver = subsection("Solver", Solver)

@@ -25,7 +25,8 @@ namespace mortise
       std::vector<double>       values;  ///< row by row
     };
     std::vector<Group> groups;
-    /// By node of sliding bodies, equally directed on both sides; else empty.
+    /// By node of sliding bodies, equally directed on both sides; of turned
+    /// masters one of the directions. Else empty.
     std::vector<dealii::Tensor<1, dim>> normals;
   };
 

@@ -7,14 +7,18 @@
 //     [ -w^T   c ] [ d ] = [ F ]
 //
 // A is the system of LinearSolver. Of a shortening w = int psi . n of the
-// interface, and -w^T lambda is its normal force; of a motion with the
-// displacements R of the part, which are prescribed in A, w = -A R, c = R^T A
-// R, and F are the loads R^T f on it. One solution with A per w gives the Schur
-// complement c - w^T A^{-1} w of d. In Newton's method A is the tangent.
+// interface, and -w^T lambda is its normal force; of a strain w = sum over
+// periodic ties of int psi . (e t) with the unit strain e and the translation
+// t, and -w^T lambda is the mean stress times the volume of the cell; of a
+// motion with the displacements R of the part, which are prescribed in A, w =
+// -A R, c = R^T A R, and F are the loads R^T f on it. One solution with A per w
+// gives the Schur complement c - w^T A^{-1} w of d. In Newton's method A is the
+// tangent.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <mortise/output/summary.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/state.h>
 #include <mortise/solvers/linear_solver.h>
@@ -40,6 +44,10 @@ namespace mortise
     {
       return values[j];
     }
+
+    /// Of the periodic cell; nothing without periodic ties. Collective.
+    std::optional<PeriodicCellSummary>
+    cell(const SystemVector &x) const;
 
     /// By rigid part, as of the last begin().
     const std::vector<RigidPart> &
@@ -107,7 +115,8 @@ namespace mortise
     void
     system_changed()
     {
-      known = false;
+      for (Unknown &unknown : all)
+        unknown.has_lift = unknown.known = false;
     }
 
     /// Take the forces and motions of the time of @p data, and the unknowns of
@@ -133,7 +142,7 @@ namespace mortise
     bool
     has_motions() const
     {
-      return all.size() > indices.size();
+      return all.size() > first_motion;
     }
 
     /// Forces on the nodes, also at constrained components.
@@ -201,6 +210,9 @@ namespace mortise
       Vector           at_nodes, borne;
       unsigned int     part = 0;
       Motion           direction{};
+      /// Are R and w those of the present system, is there a solution, and is
+      /// it of this system?
+      bool has_lift = false, has_x = false, known = false;
 
       bool
       is_motion() const
@@ -269,17 +281,47 @@ namespace mortise
     double
     relative(const dealii::Vector<double> &lacks, const SystemVector &x) const;
 
-    /// Changes of unknowns for the missing forces @p lacks. After
-    /// solve_units().
+    /// Changes of unknowns for the missing forces @p lacks of a solution for @p rhs.
+    /// After solve_units().
     dealii::Vector<double>
-    changes_for(const dealii::Vector<double> &lacks) const;
+    changes_for(const dealii::Vector<double> &lacks,
+                const SystemVector           &rhs) const;
+
+    /// Of a unit of the mean stress on the unit strain @p k of the cell.
+    double
+    work_of_stress(unsigned int k) const;
+    /// That of which forces of @p x lack a part, but for motions: the largest given
+    /// one, or where all are zero those of the other loads and unknowns.
+    /// Collective.
+    double
+    size_of_forces(const SystemVector &x) const;
+    /// Throws InputError where mean strains that are free meet no resistance.
+    void
+    check_resistance(const dealii::FullMatrix<double> &stiffness) const;
+    /// The constant pressure that an incompressible cell lacks to have the mean
+    /// stress, and which solutions do not contain; it is taken from @p lacks.
+    double
+    take_pressure(dealii::Vector<double> &lacks) const;
+    /// Find fluxes.
+    void
+    find_enclosure();
+    /// Of what @p rhs lets flow out of an enclosure, the volume that is not made
+    /// up for by free strains. Collective.
+    double
+    net_flux(const SystemVector &rhs) const;
+    /// Throws InputError where the volume of an incompressible cell changes.
+    void
+    check_volume() const;
 
     const RunContext         &run;
     const Discretisation     &discretisation;
     LinearSolver             &solver;
     std::vector<unsigned int> indices; ///< of shortenings, the first ones
-    std::vector<RigidPart>    parts;
-    std::vector<Motion>       at; ///< by part: its motion
+    /// Behind these and the components of the mean strain.
+    unsigned int           first_motion = 0;
+    double                 volume       = 0.; ///< of the cell, if any
+    std::vector<RigidPart> parts;
+    std::vector<Motion>    at; ///< by part: its motion
     /// Of parts that turn far, by part: displacements by the entries of an
     /// AffineField.
     std::vector<std::vector<Unknown>> basis;
@@ -293,7 +335,11 @@ namespace mortise
     std::vector<double>                values;
     std::vector<std::optional<double>> forces; ///< absent: kept shortening
     std::vector<Unknown>               all;
-    std::optional<std::vector<bool>>   active; ///< set of the solutions
-    bool have_units = false, known = false;    ///< and of the present system
+    /// Of a cell that is filled with incompressible bodies, the pressure of one
+    /// and its multipliers, and by unknown what flows out with it, a volume;
+    /// else absent and zero.
+    std::optional<SystemVector>      enclosure;
+    dealii::Vector<double>           fluxes;
+    std::optional<std::vector<bool>> active; ///< set of the solutions
   };
 } // namespace mortise

@@ -174,11 +174,15 @@ namespace mortise
     std::vector<BodyParameters>      bodies;
     std::vector<InterfaceParameters> interfaces;
     std::optional<Components>        gravity; ///< length per time squared
-    ExactSolutionParameters          exact_solution;
-    SolverParameters                 solver;
-    AdaptivityParameters             adaptivity;
-    StepParameters                   steps;
-    OutputParameters                 output;
+    /// xx, yy, zz, yz, zx, xy: of the cell that periodic interfaces repeat,
+    /// "free" where the mean stress is given.
+    std::array<std::string, 6> mean_strain{{"0", "0", "0", "0", "0", "0"}},
+      mean_stress = mean_strain;
+    ExactSolutionParameters exact_solution;
+    SolverParameters        solver;
+    AdaptivityParameters    adaptivity;
+    StepParameters          steps;
+    OutputParameters        output;
 
     std::string             file; ///< the parameter file, as it was given
     std::vector<Assignment> assignments; ///< its lines and those of --set
@@ -196,6 +200,10 @@ namespace mortise
          const std::string &got,
          const std::string &allowed) const;
   };
+
+  /// Of Parameters::mean_strain.
+  constexpr std::array<const char *, 6> components_of_strain = {
+    {"xx", "yy", "zz", "yz", "zx", "xy"}};
 
   /// "body: boundary, boundary", for messages.
   inline std::string

@@ -17,7 +17,7 @@ namespace mortise
     const SystemVector &solution;
     const PointHistory &history; ///< see State
     const SolvedContact contact;
-    /// By interface, the shortening of its preload, a length.
+    /// See State.
     const std::vector<double> shortenings;
   };
 

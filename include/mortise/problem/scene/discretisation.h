@@ -8,6 +8,7 @@
 #include <mortise/problem/scene/scene_spaces.h>
 #include <mortise/solvers/find_free_pressures.h>
 
+#include <numeric>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -144,6 +145,18 @@ namespace mortise
     /// interfaces.
     StepSummary
     summary() const;
+
+    /// Of all bodies.
+    double
+    volume() const
+    {
+      return std::accumulate(volumes.begin(), volumes.end(), 0.);
+    }
+
+    /// Constant pressures of incompressible bodies in the kernel, with the
+    /// multipliers that balance them.
+    std::vector<SystemVector>
+    free_states() const;
 
     const Bodies &
     bodies() const

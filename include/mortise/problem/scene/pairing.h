@@ -88,7 +88,7 @@ namespace mortise
              std::any_of(couplings.begin(),
                          couplings.end(),
                          [](const Coupling &coupling) {
-                           return coupling.is_directed();
+                           return coupling.is_directed() || coupling.is_turned;
                          });
     }
 

@@ -69,6 +69,15 @@ namespace mortise
     std::optional<double>
     preload(const InterfaceParameters &interface) const;
 
+    /// A component of the Mean strain, see unit_strain(); nothing if it is
+    /// free.
+    std::optional<double>
+    mean_strain(unsigned int component) const;
+
+    /// The Mean stress.
+    double
+    mean_stress(unsigned int component) const;
+
     /// The bound of tangential tractions of @p interface, which has friction.
     /// Throws InputError where a coefficient is negative.
     std::function<FrictionBound(const dealii::Point<dim> &)>

@@ -113,6 +113,7 @@ namespace mortise
     std::string                   name;
     unsigned int                  slave, master; ///< bodies
     std::vector<MultiplierMoment> multipliers;   ///< of this rank
+    RigidMotion                   placement;     ///< of the master
     double                        coverage;      ///< of the slave surface
     ConstrainedDirections         constrained;
     struct Sample

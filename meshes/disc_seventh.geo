@@ -1,0 +1,27 @@
+// A seventh of a disc with seven holes, cut beside them. The two cuts are meshed on their own.
+SetFactory("OpenCASCADE");
+a = 2 * Pi / 7;
+Point(1) = {0.3, 0, 0};
+Point(2) = {1, 0, 0};
+Point(3) = {Cos(a), Sin(a), 0};
+Point(4) = {0.3 * Cos(a), 0.3 * Sin(a), 0};
+Point(5) = {0, 0, 0};
+Line(1) = {1, 2};
+Circle(2) = {2, 5, 3};
+Line(3) = {3, 4};
+Circle(4) = {4, 5, 1};
+Circle(5) = {0.65 * Cos(a / 2), 0.65 * Sin(a / 2), 0, 0.15};
+Curve Loop(1) = {1, 2, 3, 4};
+Curve Loop(2) = {5};
+Plane Surface(1) = {1, 2};
+out[] = Extrude {0, 0, 0.1} { Surface{1}; };
+Physical Surface("middle") = {1};
+Physical Surface("start") = {out[2]};
+Physical Surface("rim") = {out[3]};
+Physical Surface("end") = {out[4]};
+Physical Surface("bore") = {out[5]};
+Physical Surface("hole") = {out[6]};
+Physical Surface("side") = {out[0]};
+Physical Volume("disc") = {1};
+MeshSize{:} = 0.12;
+MeshSize{3, 4} = 0.1;

@@ -1,0 +1,14 @@
+SetFactory("OpenCASCADE");
+a = Pi/3;
+Point(1) = {0,0,0}; Point(2) = {1,0,0}; Point(3) = {Cos(a),Sin(a),0};
+Line(1) = {1,2}; Circle(2) = {2,1,3}; Line(3) = {3,1};
+Curve Loop(1) = {1,2,3}; Plane Surface(1) = {1};
+out[] = Extrude {0,0,1.5} { Surface{1}; };
+Physical Surface("zmin") = {1};
+Physical Surface("start") = {out[2]};
+Physical Surface("outside") = {out[3]};
+Physical Surface("end") = {out[4]};
+Physical Surface("zmax") = {out[0]};
+Physical Volume("s") = {1};
+MeshSize{:} = 0.3;
+MeshSize{ 3 } = 0.2;

@@ -1,0 +1,15 @@
+SetFactory("OpenCASCADE");
+a = 2*Pi/7;
+Point(1) = {1,0,0}; Point(2) = {2,0,0}; Point(3) = {2*Cos(a),2*Sin(a),0}; Point(4) = {Cos(a),Sin(a),0}; Point(5) = {0,0,0};
+Line(1) = {1,2}; Circle(2) = {2,5,3}; Line(3) = {3,4}; Circle(4) = {4,5,1};
+Curve Loop(1) = {1,2,3,4}; Plane Surface(1) = {1};
+out[] = Extrude {0,0,0.5} { Surface{1}; };
+Physical Surface("zmin") = {1};
+Physical Surface("start") = {out[2]};
+Physical Surface("outside") = {out[3]};
+Physical Surface("end") = {out[4]};
+Physical Surface("inside") = {out[5]};
+Physical Surface("zmax") = {out[0]};
+Physical Volume("s") = {1};
+MeshSize{:} = 0.4;
+MeshSize{ 3, 4 } = 0.25;

@@ -1,0 +1,12 @@
+SetFactory("OpenCASCADE");
+Box(1) = {0,0,0, 1,1,1};
+Physical Surface("xmin") = {1};
+Physical Surface("xmax") = {2};
+Physical Surface("ymin") = {3};
+Physical Surface("ymax") = {4};
+Physical Surface("zmin") = {5};
+Physical Surface("zmax") = {6};
+Physical Volume("cube") = {1};
+MeshSize{:} = 0.4;
+MeshSize{ PointsOf{Point{8};} } = 0.2;
+MeshSize{7} = 0.25;

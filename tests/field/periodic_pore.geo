@@ -1,0 +1,16 @@
+SetFactory("OpenCASCADE");
+Box(1) = {0,0,0, 1,1,1};
+Sphere(2) = {0.5,0.5,0.5, 0.3};
+BooleanDifference(3) = { Volume{1}; Delete; }{ Volume{2}; Delete; };
+e = 1e-6;
+Physical Surface("xmin") = Surface In BoundingBox {-e,-e,-e, e,1+e,1+e};
+xx() = Surface In BoundingBox {1-e,-e,-e, 1+e,1+e,1+e};
+Physical Surface("xmax") = {xx()};
+Physical Surface("ymin") = Surface In BoundingBox {-e,-e,-e, 1+e,e,1+e};
+Physical Surface("ymax") = Surface In BoundingBox {-e,1-e,-e, 1+e,1+e,1+e};
+Physical Surface("zmin") = Surface In BoundingBox {-e,-e,-e, 1+e,1+e,e};
+Physical Surface("zmax") = Surface In BoundingBox {-e,-e,1-e, 1+e,1+e,1+e};
+Physical Surface("pore") = Surface In BoundingBox {0.1,0.1,0.1, 0.9,0.9,0.9};
+Physical Volume("m") = {3};
+MeshSize{:} = 0.3;
+MeshSize{ PointsOf{ Surface{xx()}; } } = 0.24;
