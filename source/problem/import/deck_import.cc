@@ -34,19 +34,25 @@ namespace mortise
       "*CLEARANCE",
       "*CLOAD",
       "*CONTACT PAIR",
+      "*COUPLING",
       "*DENSITY",
+      "*DISTRIBUTING",
       "*DLOAD",
       "*DSLOAD",
       "*ELASTIC",
       "*ELEMENT",
       "*EXPANSION",
+      "*FOUNDATION",
       "*FRICTION",
       "*HYPERELASTIC",
       "*INITIAL CONDITIONS",
+      "*KINEMATIC",
+      "*KINEMATIC COUPLING",
       "*MATERIAL",
       "*NODE PRINT",
       "*ORIENTATION",
       "*PLASTIC",
+      "*RIGID BODY",
       "*SOLID SECTION",
       "*STATIC",
       "*STEP",
@@ -64,7 +70,6 @@ namespace mortise
       "*NODE FILE",
       "*NODE OUTPUT",
       "*ELEMENT OUTPUT",
-      "*ELEMENT",
       "*EL FILE",
       "*EL PRINT",
       "*ENERGY PRINT",
@@ -86,6 +91,7 @@ namespace mortise
       "*DIAGNOSTICS",
       "*ENERGY OUTPUT",
       "*ELEMENT PRINT",
+      "*TIME POINTS",
       "*END"};
 
     /// Told by those who read sections and materials.
@@ -111,9 +117,27 @@ namespace mortise
       "*UNCOUPLED TEMPERATURE-DISPLACEMENT",
       "*VISCO"};
 
+    /// Read outside of steps only.
+    const std::set<std::string> of_model = {"*CONTACT PAIR",
+                                            "*COUPLING",
+                                            "*ELASTIC",
+                                            "*EXPANSION",
+                                            "*FRICTION",
+                                            "*MATERIAL",
+                                            "*PLASTIC",
+                                            "*SURFACE BEHAVIOR",
+                                            "*SURFACE INTERACTION",
+                                            "*TIE"};
+
     void
-    tell_unknown_keywords(const InpDeck &deck, ImportRemarks &remarks)
+    tell_unknown_keywords(const InpDeck     &deck,
+                          const ImportSteps &steps,
+                          ImportRemarks     &remarks)
     {
+      for (const ImportStep &step : steps.steps)
+        for (const InpBlock *block : step.blocks)
+          if (of_model.count(block->keyword) > 0)
+            remarks.left_out(block->place, block->keyword + " within a step");
       for (const InpBlock &block : deck.blocks)
         if (other_procedures.count(block.keyword) > 0)
           remarks.approximated(block.place,
@@ -248,7 +272,7 @@ namespace mortise
       ImportConditions       conditions(bodies, steps, remarks);
       const ImportInterfaces interfaces(bodies, conditions, steps, remarks);
       conditions.name_boundaries();
-      tell_unknown_keywords(deck, remarks);
+      tell_unknown_keywords(deck, steps, remarks);
 
       ImportFiles files;
       std::string names, sections;
@@ -267,6 +291,7 @@ namespace mortise
             "\nsubsection Body " + body.name +
             "\n  set Degree = " + degree_text(deck, body, of_body[b]) + "\n" +
             conditions.body_text(b, of_body[b]) + temperature +
+            conditions.points_text(b) +
             "  subsection Mesh\n    set Source = file\n    set File   "
             "= " +
             mesh + "\n  end\n  subsection Material\n" + of_body[b].text +

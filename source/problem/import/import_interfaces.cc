@@ -74,28 +74,42 @@ namespace mortise
           }
   }
 
+  std::string
+  ImportInterfaces::unused_name(const std::string &name) const
+  {
+    std::vector<std::string> others;
+    for (const Interface &its : interfaces)
+      others.push_back(its.name);
+    return scene_name(name, others);
+  }
+
   /// Where bodies share nodes they hold together.
   void
   ImportInterfaces::tie_shared_faces()
   {
-    std::map<std::pair<unsigned int, unsigned int>,
+    std::map<std::tuple<unsigned int, unsigned int, const InpBlock *>,
              std::array<std::vector<unsigned int>, 2>>
       pairs;
-    for (const auto &[a, b] : bodies.shared)
+    for (const ImportShared &shared : bodies.shared)
       {
-        auto &faces = pairs[{bodies.faces[a].body, bodies.faces[b].body}];
+        const auto [a, b] = shared.faces;
+        auto &faces =
+          pairs[{bodies.faces[a].body, bodies.faces[b].body, shared.cut}];
         faces[0].push_back(a);
         faces[1].push_back(b);
       }
     for (const auto &[pair, faces] : pairs)
       {
+        const auto [a, b, cut] = pair;
         Interface interface;
-        interface.slave_body     = pair.first;
-        interface.master_body    = pair.second;
-        const std::string slave  = bodies.bodies[pair.first].name,
-                          master = bodies.bodies[pair.second].name;
-        interface.name           = slave + "-" + master;
+        interface.slave_body     = a;
+        interface.master_body    = b;
+        const std::string slave  = bodies.bodies[a].name,
+                          master = bodies.bodies[b].name;
+        interface.name           = unused_name(slave + "-" + master);
         interface.lines          = law_line("Law", "tie");
+        if (cut != nullptr)
+          interface.lines += conditions.preload_text(*cut);
         ImportCondition condition;
         condition.kind   = ImportCondition::Kind::side;
         condition.name   = "to_" + master;
@@ -185,10 +199,7 @@ namespace mortise
           interface.slave       = one.condition;
           interface.master      = other.condition;
           interface.lines       = lines;
-          std::vector<std::string> others;
-          for (const Interface &its : interfaces)
-            others.push_back(its.name);
-          interface.name = scene_name(name, others);
+          interface.name        = unused_name(name);
           interfaces.push_back(interface);
         }
   }

@@ -49,6 +49,8 @@ namespace mortise
       std::string  lines;                                  ///< of its section
     };
 
+    std::string
+    unused_name(const std::string &name) const;
     void
     tie_shared_faces();
     void
