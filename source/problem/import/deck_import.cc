@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -221,8 +222,8 @@ namespace mortise
     std::string
     points_text(const ImportBodies &bodies)
     {
-      const InpDeck        &deck = bodies.deck;
-      std::set<std::string> entries;
+      const InpDeck                     &deck = bodies.deck;
+      std::map<std::string, std::string> entries; // places by name
       for (const InpBlock &block : deck.blocks)
         if (block.keyword == "*NODE PRINT" || block.keyword == "*NODE FILE" ||
             block.keyword == "*NODE OUTPUT")
@@ -239,17 +240,23 @@ namespace mortise
             for (const unsigned int node : nodes)
               if (!bodies.bodies_of_node[node].empty())
                 {
-                  const Point<3> &x = deck.nodes[node];
-                  entries.insert(
-                    "node_" + std::to_string(deck.node_tags[node]) + ": " +
-                    bodies.bodies[bodies.bodies_of_node[node][0]].name + ": " +
-                    number_text(x[0]) + ", " + number_text(x[1]) + ", " +
-                    number_text(x[2]));
+                  const Point<3>    &x = deck.nodes[node];
+                  const std::string &body =
+                    bodies.bodies[bodies.bodies_of_node[node][0]].name;
+                  const std::string at = body + ": " + number_text(x[0]) +
+                                         ", " + number_text(x[1]) + ", " +
+                                         number_text(x[2]);
+                  std::string name =
+                    "node_" + std::to_string(deck.node_tags[node]);
+                  if (const auto same = entries.find(name);
+                      same != entries.end() && same->second != at)
+                    name += "_" + body; // of another instance
+                  entries.emplace(name, at);
                 }
           }
       std::string text;
-      for (const std::string &entry : entries)
-        text += (text.empty() ? "" : "; ") + entry;
+      for (const auto &[name, at] : entries)
+        text += (text.empty() ? "" : "; ") + name + ": " + at;
       return text;
     }
 

@@ -244,6 +244,20 @@ namespace mortise
       }
   }
 
+  Tensor<1, 3>
+  ImportBodies::normal_of(const ImportFace &face) const
+  {
+    const auto  &x             = deck.nodes;
+    const auto  &n             = face.nodes;
+    const bool   quadrilateral = face.n_vertices == 4;
+    Tensor<1, 3> normal        = cross_product_3d(x[n[quadrilateral ? 3 : 2]] -
+                                             x[n[quadrilateral ? 1 : 0]],
+                                           x[n[quadrilateral ? 2 : 1]] -
+                                             x[n[0]]); // seen from within
+    const double length        = normal.norm();
+    return length > 0. ? normal / length : normal;
+  }
+
   std::vector<unsigned int>
   ImportBodies::faces_of(const std::vector<InpSide> &sides) const
   {

@@ -48,6 +48,10 @@ namespace mortise
     std::vector<unsigned int>
     faces_of(const std::vector<InpSide> &sides) const;
 
+    /// The outward normal, of length 1, or 0 where a face has no area.
+    dealii::Tensor<1, 3>
+    normal_of(const ImportFace &face) const;
+
     const InpDeck            &deck;
     std::vector<ImportBody>   bodies;
     std::vector<ImportFace>   faces; ///< those of only one element of a body

@@ -180,7 +180,8 @@ namespace mortise
         return face.body == body &&
                std::count(all.begin(), all.end(), condition) > 0 &&
                std::any_of(all.begin(), all.end(), [&](const auto c) {
-                 return conditions[c].kind == ImportCondition::Kind::support;
+                 return conditions[c].kind == ImportCondition::Kind::support ||
+                        conditions[c].kind == ImportCondition::Kind::motion;
                });
       });
   }
@@ -218,17 +219,28 @@ namespace mortise
 
     const std::array<std::string, 3> free = {{"-", "-", "-"}};
 
-    /// Add components along the axes of the scene to those along @p axes, to one
-    /// of which each of them is parallel.
-    void
+    /// Add components along the axes of the scene to those along @p axes; false:
+    /// one of them is parallel to none of these.
+    bool
     add_components(const std::array<std::string, 3> &of_scene,
                    const Tensor<2, 3>               &axes,
                    std::array<std::string, 3>       &local)
     {
+      bool all = true;
       for (unsigned int d = 0; d < 3; ++d)
-        for (unsigned int c = 0; c < 3 && of_scene[d] != "-"; ++c)
-          if (std::fabs(axes[d][c]) > 1. - 1e-9)
-            local[c] = axes[d][c] > 0. ? of_scene[d] : "-(" + of_scene[d] + ")";
+        if (of_scene[d] != "-")
+          {
+            bool found = false;
+            for (unsigned int c = 0; c < 3; ++c)
+              if (std::fabs(axes[d][c]) > 1. - 1e-9)
+                {
+                  found = true;
+                  local[c] =
+                    axes[d][c] > 0. ? of_scene[d] : "-(" + of_scene[d] + ")";
+                }
+            all = all && found;
+          }
+      return all;
     }
 
     std::array<ImportHistory, 3>
@@ -341,11 +353,17 @@ namespace mortise
                   break;
               }
           }
+        bool both = !normal.empty() && displacement != free;
         if (axes.norm() > 0.)
           {
-            add_components(displacement, axes, local);
+            both         = !add_components(displacement, axes, local) || both;
             displacement = local;
           }
+        if (both)
+          remarks.left_out("*BOUNDARY",
+                           "of the body " + bodies.bodies[body].name + " at " +
+                             name +
+                             ", along the axes of the scene beside others");
         if (!normal.empty())
           lines += setting("Displacement", "normal: " + normal);
         else if (displacement != free)

@@ -92,6 +92,13 @@ namespace mortise
     bool
     is_held(unsigned int body, unsigned int condition) const;
 
+    /// Faces of a body with a condition that are held across their normals
+    /// alone are held along their edges instead: a slave is no held boundary.
+    void
+    hold_edges(unsigned int       body,
+               unsigned int       condition,
+               const std::string &place);
+
     /// "body: boundary, boundary" of the faces with a condition, empty if it
     /// has none.
     std::string
@@ -198,6 +205,10 @@ namespace mortise
     void
     find_edges(unsigned int                           body,
                std::array<std::set<unsigned int>, 3> &of_edges);
+    using EdgesByValues = std::map<std::array<std::string, 3>,
+                                   std::vector<std::array<unsigned int, 2>>>;
+    void
+    add_lines(unsigned int body, const EdgesByValues &alike);
     std::string
     values_text(unsigned int                     component,
                 const std::vector<unsigned int> &nodes) const;

@@ -82,8 +82,22 @@ namespace mortise
     std::string text;
     if (!reference.load[0].empty())
       {
-        text =
-          "  set Preload = " + steps.history(reference.load[0]).text() + "\n";
+        // against the normal of the surface that is given the force presses
+        double sense = 1.;
+        if (!section.lines.empty())
+          {
+            auto x = import_numbers(section.lines[0]);
+            x.resize(3);
+            const auto &surface = deck.surfaces.at(
+              deck.find_surface(section.option("SURFACE"), section.instance));
+            for (const unsigned int f : bodies.faces_of(surface))
+              if (bodies.normal_of(bodies.faces[f]) *
+                    Tensor<1, 3>({x[0], x[1], x[2]}) <
+                  0.)
+                sense = -1.;
+          }
+        text = "  set Preload = " +
+               steps.history(reference.load[0]).times(sense).text() + "\n";
         if (reference.fixed_from > 1)
           text += "  set Preload until = " +
                   number_text(steps.steps[reference.fixed_from - 1].start) +

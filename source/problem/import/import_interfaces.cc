@@ -18,6 +18,13 @@ namespace mortise
     {
       return "  set " + name + " = " + value + "\n";
     }
+
+    std::string
+    number_of(const InpBlock &block, const std::string &option)
+    {
+      return number_text(
+        import_numbers({{block.option(option)}, block.place})[0]);
+    }
   } // namespace
 
   ImportInterfaces::ImportInterfaces(ImportBodies      &bodies,
@@ -57,12 +64,13 @@ namespace mortise
                                  block->keyword + " of a surface with itself");
                 continue;
               }
-            std::string       lines     = tie ? law_line("Law", "tie") :
-                                                contact_lines(*block) +
+            std::string lines = tie ? law_line("Law", "tie") :
+                                      contact_lines(*block) +
                                         clearance(line.words[0], line.words[1]);
-            const std::string tolerance = block->option("POSITION TOLERANCE");
-            if (tie && !tolerance.empty())
-              lines += law_line("Search distance", "length " + tolerance);
+            if (tie && block->has("POSITION TOLERANCE"))
+              lines +=
+                law_line("Search distance",
+                         "length " + number_of(*block, "POSITION TOLERANCE"));
             add_pair(tie && !block->option("NAME").empty() ?
                        block->option("NAME") :
                        line.words[0] + "-" + line.words[1],
@@ -200,6 +208,8 @@ namespace mortise
           interface.master      = other.condition;
           interface.lines       = lines;
           interface.name        = unused_name(name);
+          if (block.keyword == "*CONTACT PAIR")
+            conditions.hold_edges(s, one.condition, line.place);
           interfaces.push_back(interface);
         }
   }
@@ -231,7 +241,6 @@ namespace mortise
       remarks.approximated(block.place,
                            "ADJUST: no node is moved; gaps and overlaps of "
                            "the meshes count");
-    contact           = true;
     std::string lines = law_line("Law", "contact");
     if (const auto friction = frictions.find(interaction);
         friction != frictions.end() && !friction->second->lines.empty())
@@ -254,7 +263,7 @@ namespace mortise
     for (const InpBlock *block : clearances)
       if (upper(block->option("SLAVE")) == upper(slave) &&
           upper(block->option("MASTER")) == upper(master))
-        return law_line("Offset", block->option("VALUE")) +
+        return law_line("Offset", number_of(*block, "VALUE")) +
                law_line("Mesh gap", "ignored");
     return "";
   }

@@ -34,8 +34,6 @@ namespace mortise
     std::string
     text() const;
 
-    bool contact = false; ///< is there one?
-
   private:
     struct Side
     {

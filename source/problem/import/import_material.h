@@ -55,6 +55,13 @@ namespace mortise
           const dealii::Tensor<1, 3> &b,
           const std::string          &place);
 
+  /// One of the columns.
+  inline dealii::Tensor<1, 3>
+  axis_of(const dealii::Tensor<2, 3> &axes, const unsigned int c)
+  {
+    return dealii::Tensor<1, 3>({axes[0][c], axes[1][c], axes[2][c]});
+  }
+
   /// The words of @p line as numbers; empty words are 0.
   std::vector<double>
   import_numbers(const InpLine &line, std::size_t first = 0);

@@ -14,6 +14,8 @@ namespace mortise
 
   namespace
   {
+    const std::array<std::string, 3> free_components = {{"-", "-", "-"}};
+
     /// The vertices of an edge, ascending, and the node in its middle.
     struct ImportEdge
     {
@@ -137,12 +139,10 @@ namespace mortise
   ImportConditions::find_edges(const unsigned int                     body,
                                std::array<std::set<unsigned int>, 3> &of_edges)
   {
-    std::map<std::array<std::string, 3>,
-             std::vector<std::array<unsigned int, 2>>>
-      alike;
+    EdgesByValues alike;
     for (const ImportEdge &edge : surface_edges_of(bodies, body))
       {
-        std::array<std::string, 3> values = {{"-", "-", "-"}};
+        std::array<std::string, 3> values = free_components;
         for (unsigned int c = 0; c < 3; ++c)
           {
             if (!std::all_of(edge.nodes.begin(),
@@ -160,14 +160,89 @@ namespace mortise
             values[c] = text;
             of_edges[c].insert(edge.nodes.begin(), edge.nodes.end());
           }
-        if (values != std::array<std::string, 3>{{"-", "-", "-"}})
+        if (values != free_components)
           alike[values].push_back(edge.ends);
       }
+    add_lines(body, alike);
+  }
+
+  void
+  ImportConditions::add_lines(const unsigned int   body,
+                              const EdgesByValues &alike)
+  {
     for (const auto &[values, edges] : alike)
       for (const auto &[a, b] : straight_lines_of(deck.nodes, edges))
         points[body].push_back(place_text(deck.nodes[a]) + ", " +
                                place_text(deck.nodes[b]) + ": " + values[0] +
                                ", " + values[1] + ", " + values[2]);
+  }
+
+  namespace
+  {
+    /// Does it prescribe a displacement that is rather along the normal than
+    /// across it?
+    bool
+    holds_normal(const ImportCondition &condition, const Tensor<1, 3> &normal)
+    {
+      const bool support = condition.kind == ImportCondition::Kind::support;
+      if (!support || condition.component == ImportCondition::normal)
+        return support || condition.kind == ImportCondition::Kind::motion;
+      Tensor<1, 3> along;
+      along[condition.component] = 1.;
+      if (condition.axes.norm() > 0.)
+        along = condition.axes * along;
+      return std::fabs(along * normal) > 0.5;
+    }
+  } // namespace
+
+  void
+  ImportConditions::hold_edges(const unsigned int body,
+                               const unsigned int condition,
+                               const std::string &place)
+  {
+    const auto is_support = [&](const unsigned int c) {
+      return conditions[c].kind == ImportCondition::Kind::support ||
+             conditions[c].kind == ImportCondition::Kind::motion;
+    };
+    std::map<std::array<unsigned int, 2>, std::array<std::string, 3>> values;
+    std::vector<ImportFace *>                                         held;
+    for (ImportFace &face : bodies.faces)
+      if (face.body == body && std::count(face.conditions.begin(),
+                                          face.conditions.end(),
+                                          condition) > 0)
+        for (const unsigned int c : face.conditions)
+          if (is_support(c))
+            {
+              const ImportCondition &support = conditions[c];
+              if (holds_normal(support, bodies.normal_of(face)) ||
+                  support.axes.norm() > 0.)
+                return;
+              held.push_back(&face);
+              for (unsigned int v = 0; v < face.n_vertices; ++v)
+                {
+                  const auto [a, b] = std::minmax(
+                    {face.nodes[v], face.nodes[(v + 1) % face.n_vertices]});
+                  auto &at =
+                    values.try_emplace({{a, b}}, free_components).first->second;
+                  at[support.component] = affine_text(support.value);
+                }
+            }
+    if (held.empty())
+      return;
+    for (ImportFace *face : held)
+      {
+        auto &its = face->conditions;
+        its.erase(std::remove_if(its.begin(), its.end(), is_support),
+                  its.end());
+      }
+    EdgesByValues alike;
+    for (const auto &[edge, at] : values)
+      alike[at].push_back(edge);
+    add_lines(body, alike);
+    remarks.approximated(place,
+                         "*CONTACT PAIR: the slave's faces of the body " +
+                           bodies.bodies[body].name +
+                           " are held along the edges of elements");
   }
 
   void

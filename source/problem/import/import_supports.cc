@@ -129,27 +129,6 @@ namespace mortise
 
   namespace
   {
-    Tensor<1, 3>
-    column(const Tensor<2, 3> &axes, const unsigned int c)
-    {
-      return Tensor<1, 3>({axes[0][c], axes[1][c], axes[2][c]});
-    }
-
-    /// The normal, of length 1.
-    Tensor<1, 3>
-    normal_of(const InpDeck &deck, const ImportFace &face)
-    {
-      const auto  &x             = deck.nodes;
-      const auto  &n             = face.nodes;
-      const bool   quadrilateral = face.n_vertices == 4;
-      Tensor<1, 3> normal =
-        cross_product_3d(x[n[quadrilateral ? 2 : 1]] - x[n[0]],
-                         x[n[quadrilateral ? 3 : 2]] -
-                           x[n[quadrilateral ? 1 : 0]]);
-      const double length = normal.norm();
-      return length > 0. ? normal / length : normal;
-    }
-
     /// Steps and amplitudes: what may differ is the value.
     std::string
     kind_of(const std::vector<ImportChange> &changes)
@@ -187,8 +166,8 @@ namespace mortise
         for (const unsigned int i : edge.second)
           for (const unsigned int j : edge.second)
             if (bodies.faces[faces[i]].body == bodies.faces[faces[j]].body &&
-                normal_of(bodies.deck, bodies.faces[faces[i]]) *
-                    normal_of(bodies.deck, bodies.faces[faces[j]]) >
+                bodies.normal_of(bodies.faces[faces[i]]) *
+                    bodies.normal_of(bodies.faces[faces[j]]) >
                   smooth)
               root[std::max(find(i), find(j))] = std::min(find(i), find(j));
       for (unsigned int i = 0; i < faces.size(); ++i)
@@ -215,7 +194,7 @@ namespace mortise
           faces.push_back(f);
           all.insert(nodes.begin(), nodes.end());
           if (component < 3 &&
-              std::fabs(normal_of(deck, bodies.faces[f])[component]) > 0.9)
+              std::fabs(bodies.normal_of(bodies.faces[f])[component]) > 0.9)
             {
               across.push_back(f);
               of_across.insert(nodes.begin(), nodes.end());
@@ -277,7 +256,7 @@ namespace mortise
                 if ((mask >> i) % 2 == 1)
                   {
                     of.push_back(held[i]);
-                    const Tensor<1, 3> a = column(system.axes, held[i]);
+                    const Tensor<1, 3> a = axis_of(system.axes, held[i]);
                     onto += outer_product(a, a);
                   }
               Tensor<2, 3> rounded;
@@ -331,9 +310,9 @@ namespace mortise
           return (at.axes - first.axes).norm() < 1e-9;
         }))
       return 1.;
-    const Tensor<1, 3> axis = column(first.axes, 2);
+    const Tensor<1, 3> axis = axis_of(first.axes, 2);
     if (!all([&](const unsigned int, const LocalSystem &at) {
-          return at.round && (column(at.axes, 2) - axis).norm() < 1e-9;
+          return at.round && (axis_of(at.axes, 2) - axis).norm() < 1e-9;
         }))
       return 0.;
     if (component == 2)
@@ -345,8 +324,8 @@ namespace mortise
         return 1.;
       }
     // a face of the cylinder that is held along its normal alone
-    const Tensor<1, 3> normal = normal_of(deck, face);
-    const double       sense  = normal * column(first.axes, 0);
+    const Tensor<1, 3> normal = bodies.normal_of(face);
+    const double       sense  = normal * axis_of(first.axes, 0);
     if (component != 0 || std::fabs(sense) < 0.5 ||
         !all([&](const unsigned int, const LocalSystem &at) {
           return std::fabs(at.radius - first.radius) < 1e-6 * first.radius;
