@@ -271,20 +271,20 @@ main(int argc, char **argv)
                               "*MATERIAL, NAME=X\n*ELASTIC\n1., 0.3\n";
   check_refused("a direction of no length",
                 mesh + section + "*STEP\n*STATIC\n*DLOAD\nLOW, GRAV, 1.\n",
-                "in line 51 a direction of no length");
+                "in line 52 a direction of no length");
   check_refused("axes that are none",
                 mesh + section +
                   "*TRANSFORM, NSET=TOP\n1., 0., 0., 2., 0., 0.\n",
-                "in line 48 axes by two points on a line through the origin");
+                "in line 49 axes by two points on a line through the origin");
   check_refused("times that descend",
                 mesh + section + "*AMPLITUDE, NAME=A\n0., 0., 2., 1., 1., 0.\n",
-                "in line 49 an *AMPLITUDE whose times descend");
+                "in line 50 an *AMPLITUDE whose times descend");
   check_refused(
     "a word for a clearance",
     mesh + section +
       "*SOLID SECTION, ELSET=MID, MATERIAL=X\n*CONTACT PAIR\n"
       "SLAVE, MASTER\n*CLEARANCE, SLAVE=SLAVE, MASTER=MASTER, VALUE=x\n",
-    "in line 51 'x', which is no number");
+    "in line 52 'x', which is no number");
   check_refused(
     "moduli of zero",
     mesh +
