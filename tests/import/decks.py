@@ -22,7 +22,7 @@ def section(elset, name, orientation=""):
 
 
 def step(*lines, options="", static="*STATIC"):
-    return "*STEP%s\n%s\n" % (options, static) + "".join(line if line.endswith("\n") else line + "\n" for line in lines) + "*NODE PRINT, NSET=PROBE\nU\n*END STEP\n"
+    return "*STEP%s\n%s\n" % (options, static) + "".join(line if line.endswith("\n") else line + "\n" for line in lines) + "*NODE PRINT, NSET=PROBE, GLOBAL=YES\nU\n*END STEP\n"
 
 
 ELASTIC = ("*ELASTIC", "210000., 0.3")
@@ -167,12 +167,12 @@ def press_fit():
 
 
 def block_under_gravity():
-    """A column of height 4 under its weight, without contraction."""
+    """A column of height 4 under its weight, without contraction; the length of a direction does not count."""
     mesh = Mesh().block("C3D20", (1, 1, 3), box(0, 0, 0, 1, 1, 4))
     top = mesh.node(1, 1, 4)
     text = mesh.text() + probe(top) + nset("FOOT", mesh.at(lambda x, y, z: near(z, 0)))
     text += material("STONE", "*ELASTIC", "1000., 0.", "*DENSITY", "2.") + section("BODY", "STONE") + "*BOUNDARY\nFOOT, 1, 3\n"
-    text += step("*DLOAD\nBODY, GRAV, 9.81, 0., 0., -1.", "*NODE PRINT, NSET=FOOT, TOTALS=ONLY\nRF\n")
+    text += step("*DLOAD\nBODY, GRAV, 9.81, 0., 0., -2.", "*NODE PRINT, NSET=FOOT, TOTALS=ONLY\nRF\n")
     return Deck(text, [("node_%d" % top, 2, -2 * 9.81 * 16 / 2 / 1000, 1e-6), ("FOOT", 2, 2 * 9.81 * 4, 1e-6)])
 
 
