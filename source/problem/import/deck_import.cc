@@ -298,7 +298,7 @@ namespace mortise
             "\nsubsection Body " + body.name +
             "\n  set Degree = " + degree_text(deck, body, of_body[b]) + "\n" +
             conditions.body_text(b, of_body[b]) + temperature +
-            conditions.points_text(b) +
+            conditions.supports_text(b) +
             "  subsection Mesh\n    set Source = file\n    set File   "
             "= " +
             mesh + "\n  end\n  subsection Material\n" + of_body[b].text +

@@ -217,8 +217,6 @@ namespace mortise
       return setting(name, history_text(x));
     }
 
-    const std::array<std::string, 3> free = {{"-", "-", "-"}};
-
     /// Add components along the axes of the scene to those along @p axes; false:
     /// one of them is parallel to none of these.
     bool
@@ -287,7 +285,8 @@ namespace mortise
     std::string text;
     for (const auto &[name, faces] : boundaries)
       {
-        std::array<std::string, 3>   displacement = free, local = free;
+        std::array<std::string, 3> displacement = free_components,
+                                   local        = free_components;
         Tensor<2, 3>                 axes;
         std::string                  normal, motion, stiffness, pressure, lines;
         std::array<ImportHistory, 3> traction, force, moment;
@@ -353,7 +352,7 @@ namespace mortise
                   break;
               }
           }
-        bool both = !normal.empty() && displacement != free;
+        bool both = !normal.empty() && displacement != free_components;
         if (axes.norm() > 0.)
           {
             both         = !add_components(displacement, axes, local) || both;
@@ -366,7 +365,7 @@ namespace mortise
                              ", along the axes of the scene beside others");
         if (!normal.empty())
           lines += setting("Displacement", "normal: " + normal);
-        else if (displacement != free)
+        else if (displacement != free_components)
           lines += setting("Displacement", three(displacement, ", "));
         if (axes.norm() > 0.)
           lines += setting("Displacement axes", angles_text(axes));

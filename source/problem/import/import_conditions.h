@@ -16,6 +16,9 @@
 
 namespace mortise
 {
+  /// Nothing is prescribed.
+  inline const std::array<std::string, 3> free_components = {{"-", "-", "-"}};
+
   /// A force on faces, with its moment about their centroid.
   struct ImportForce
   {
@@ -77,7 +80,7 @@ namespace mortise
 
     /// Points and edges of a body that are held.
     std::string
-    points_text(unsigned int body) const;
+    supports_text(unsigned int body) const;
 
     /// The force of a *PRE-TENSION SECTION and since when it is kept, as lines
     /// of an interface; empty if nothing acts.
@@ -256,7 +259,7 @@ namespace mortise
       scene_axes; ///< local components that are components of the scene, too
     std::map<unsigned int, LocalSystem>               local_axes;
     std::map<unsigned int, Reference>                 references; ///< by node
-    std::vector<std::vector<std::string>>             points;     ///< by body
+    std::vector<std::vector<std::string>>             held_at;    ///< by body
     std::array<std::map<unsigned int, NodalForce>, 3> nodal_forces;
     std::map<std::string, FaceLoad>                   face_loads;
     std::map<std::string, BodyForce>                  body_forces;

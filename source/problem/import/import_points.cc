@@ -14,8 +14,6 @@ namespace mortise
 
   namespace
   {
-    const std::array<std::string, 3> free_components = {{"-", "-", "-"}};
-
     /// The vertices of an edge, ascending, and the node in its middle.
     struct ImportEdge
     {
@@ -172,9 +170,9 @@ namespace mortise
   {
     for (const auto &[values, edges] : alike)
       for (const auto &[a, b] : straight_lines_of(deck.nodes, edges))
-        points[body].push_back(place_text(deck.nodes[a]) + ", " +
-                               place_text(deck.nodes[b]) + ": " + values[0] +
-                               ", " + values[1] + ", " + values[2]);
+        held_at[body].push_back(place_text(deck.nodes[a]) + ", " +
+                                place_text(deck.nodes[b]) + ": " + values[0] +
+                                ", " + values[1] + ", " + values[2]);
   }
 
   namespace
@@ -248,7 +246,7 @@ namespace mortise
   void
   ImportConditions::find_points()
   {
-    points.resize(bodies.bodies.size());
+    held_at.resize(bodies.bodies.size());
     std::set<unsigned int> vertices;
     for (const ImportFace &face : bodies.faces)
       vertices.insert(face.nodes.begin(), face.nodes.begin() + face.n_vertices);
@@ -273,8 +271,8 @@ namespace mortise
                   found[c].insert(node);
               }
             if (any)
-              points[body].push_back(place_text(deck.nodes[node]) + ": " +
-                                     values);
+              held_at[body].push_back(place_text(deck.nodes[node]) + ": " +
+                                      values);
           }
       }
     for (unsigned int c = 0; c < 3; ++c)
@@ -309,10 +307,10 @@ namespace mortise
   }
 
   std::string
-  ImportConditions::points_text(const unsigned int body) const
+  ImportConditions::supports_text(const unsigned int body) const
   {
     std::string text;
-    for (const std::string &entry : points[body])
+    for (const std::string &entry : held_at[body])
       text += (text.empty() ? "" : "; ") + entry;
     return text.empty() ? "" : "  set Displacement at = " + text + "\n";
   }
