@@ -119,9 +119,9 @@ namespace
   void
   check_instances()
   {
-    write_file("nodes.inc", "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n");
+    write_file("nodes.inc", "1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n");
     const std::string text =
-      "*PART, NAME=p\n*INCLUDE, INPUT=" + temporary_file("nodes.inc") +
+      "*PART, NAME=p\n*NODE\n*INCLUDE, INPUT=" + temporary_file("nodes.inc") +
       "\n*ELEMENT, TYPE=C3D4, ELSET=e\n7, 1, 2, 3, 4\n*NSET, NSET=foot\n1, 2, 3\n"
       "*SURFACE, NAME=skin\ne\n*END PART\n*ASSEMBLY, NAME=a\n"
       "*INSTANCE, NAME=First, PART=P\n*END INSTANCE\n"
@@ -193,6 +193,9 @@ namespace
     refuse("a node twice",
            nodes + "1,0,0,0\n",
            "in line 6 the node 1 a second time");
+    refuse("a number of a node beyond all",
+           "*NODE\n9300000000000000000, 0, 0, 0\n",
+           "in line 2 '9300000000000000000', which is no integer");
     refuse("an unknown node",
            nodes + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 5\n",
            "in line 7 the node 5, which the file does not have before it");

@@ -160,8 +160,11 @@ namespace
     std::vector<std::int32_t>  ids;
 
     void
-    add(const unsigned char type, const std::int32_t id)
+    add(const unsigned char              type,
+        const std::int32_t               id,
+        const std::vector<std::int64_t> &nodes = {})
     {
+      connectivity.insert(connectivity.end(), nodes.begin(), nodes.end());
       types.push_back(type);
       offsets.push_back(connectivity.size());
       ids.push_back(id);
@@ -220,15 +223,9 @@ namespace
             }
         grid.add(types[quadratic][c], c == 0 ? 1 : 7);
       }
-    for (const unsigned int v : {0, 3, 7, 4})
-      grid.connectivity.push_back(v);
-    grid.add(9, 0);
-    for (const unsigned int v : {5, 9, 10})
-      grid.connectivity.push_back(v);
-    grid.add(5, 3);
-    for (const unsigned int v : {0, 1}) // a line, which is passed over
-      grid.connectivity.push_back(v);
-    grid.add(3, 9);
+    grid.add(9, 0, {0, 3, 7, 4});
+    grid.add(5, 3, {5, 9, 10});
+    grid.add(3, 9, {0, 1}); // a line, which is passed over
     for (const Point<3> &node : nodes)
       {
         const Point<3> x = bent(node);
@@ -280,15 +277,25 @@ namespace
   }
 
   void
+  check_volume(const std::string &what,
+               const Grid        &grid,
+               const double       exact,
+               const std::string &version = "0.1")
+  {
+    verdict(what + ": volume",
+            std::fabs(volume_of(grid, version) - exact),
+            1e-14);
+  }
+
+  void
   check_shapes()
   {
-    const double straight = volume_of(deck_grid(false, false));
-    verdict("the wedge of VTK's documentation: volume",
-            std::fabs(volume_of(deck_grid(false, true)) - straight),
-            1e-15);
-    verdict("the same of second order: volume",
-            std::fabs(volume_of(deck_grid(true, true)) - exact_volume()),
-            1e-14);
+    check_volume("the wedge of VTK's documentation",
+                 deck_grid(false, true),
+                 volume_of(deck_grid(false, false)));
+    check_volume("the same of second order",
+                 deck_grid(true, true),
+                 exact_volume());
     // a cube, bent, with the nodes that the program writes itself
     const QGauss<3> rule(4);
     double          exact = 0.;
@@ -303,31 +310,18 @@ namespace
         grid.points.insert(grid.points.end(), x.begin_raw(), x.end_raw());
       }
     grid.add(72, 1);
-    for (const unsigned int v : {0, 3, 7, 4})
-      grid.connectivity.push_back(v);
-    grid.add(9, 2);
-    verdict("a hexahedron of Lagrange, version 1.0: volume",
-            std::fabs(volume_of(grid, "1.0") - exact),
-            1e-14);
+    grid.add(9, 2, {0, 3, 7, 4});
+    check_volume("a hexahedron of Lagrange, version 1.0", grid, exact, "1.0");
     std::swap(grid.connectivity[18], grid.connectivity[19]);
-    verdict("a hexahedron of Lagrange, version 2.2: volume",
-            std::fabs(volume_of(grid, "2.2") - exact),
-            1e-14);
+    check_volume("a hexahedron of Lagrange, version 2.2", grid, exact, "2.2");
     grid.types[0] = 29;
-    verdict("a triquadratic hexahedron: volume",
-            std::fabs(volume_of(grid) - exact),
-            1e-14);
+    check_volume("a triquadratic hexahedron", grid, exact);
     // a pyramid on the unit square, its sides bent outwards do not count
     Grid pyramid;
-    pyramid.points       = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1};
-    pyramid.connectivity = {0, 1, 2, 3, 4};
-    pyramid.add(14, 1);
-    for (const unsigned int v : {0, 3, 2, 1})
-      pyramid.connectivity.push_back(v);
-    pyramid.add(9, 2);
-    verdict("a pyramid: volume",
-            std::fabs(volume_of(pyramid) - 1. / 3.),
-            1e-15);
+    pyramid.points = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1};
+    pyramid.add(14, 1, {0, 1, 2, 3, 4});
+    pyramid.add(9, 2, {0, 3, 2, 1});
+    check_volume("a pyramid", pyramid, 1. / 3.);
   }
 
   void
@@ -344,6 +338,48 @@ namespace
     return text.replace(text.find(what), what.size(), by);
   }
 
+  /// What is written in place of what, and the message.
+  struct Fault
+  {
+    const char *name, *what, *by, *message;
+  };
+
+  const std::vector<Fault> faults = {
+    {"another kind of grid",
+     "type=\"UnstructuredGrid\"",
+     "type=\"PolyData\"",
+     "is a VTK file of type 'PolyData'; allowed: UnstructuredGrid"},
+    {"another byte order",
+     "LittleEndian",
+     "BigEndian",
+     "has the byte order BigEndian"},
+    {"another compressor",
+     "byte_order",
+     "compressor=\"vtkLZ4DataCompressor\" byte_order",
+     "is compressed by 'vtkLZ4DataCompressor'; allowed: vtkZLib"},
+    {"no cells", "Cells=\"6\"", "Cells=\"0\"", "holds no cells"},
+    {"fewer cells than are said",
+     "Cells=\"6\"",
+     "Cells=\"7\"",
+     "has the array 'types', which has 6 numbers; allowed: 7 here"},
+    {"cells without number",
+     "Cells=\"6\"",
+     "Cells=\"-1\"",
+     "NumberOfCells = '-1'; allowed: a number of things"},
+    {"no types", "\"types\"", "\"kinds\"", "has no array 'types'"},
+    {"types that are no integers",
+     "\"UInt8\"",
+     "\"Float64\"",
+     "has the array 'types', whose type is Float64; allowed: integers"},
+    {"a word among numbers",
+     "\"types\" format=\"ascii\">\n12",
+     "\"types\" format=\"ascii\">\nx",
+     "has the array 'types', with 'x', which is no integer"},
+    {"a node that is none",
+     "\"connectivity\" format=\"ascii\">\n0",
+     "\"connectivity\" format=\"ascii\">\n11",
+     "has a cell 0 with the point 11; allowed: 0 to 10"}};
+
   void
   check_refusals()
   {
@@ -351,39 +387,8 @@ namespace
     const std::string text = text_of(grid);
     refuse("no XML", "solid cube\n", "is no XML file: ");
     refuse("another XML file", "<html></html>", "holds no <VTKFile>");
-    refuse("another kind of grid",
-           replaced(text, "type=\"UnstructuredGrid\"", "type=\"PolyData\""),
-           "is a VTK file of type 'PolyData'; allowed: UnstructuredGrid");
-    refuse("another byte order",
-           replaced(text, "LittleEndian", "BigEndian"),
-           "has the byte order BigEndian");
-    refuse("another compressor",
-           replaced(text,
-                    "byte_order",
-                    "compressor=\"vtkLZ4DataCompressor\" byte_order"),
-           "is compressed by 'vtkLZ4DataCompressor'; allowed: vtkZLib");
-    refuse("no cells",
-           replaced(text, "NumberOfCells=\"6\"", "NumberOfCells=\"0\""),
-           "holds no cells");
-    refuse("fewer cells than are said",
-           replaced(text, "NumberOfCells=\"6\"", "NumberOfCells=\"7\""),
-           "has the array 'types', which has 6 numbers; allowed: 7 here");
-    refuse("cells without number",
-           replaced(text, "NumberOfCells=\"6\"", "NumberOfCells=\"-1\""),
-           "NumberOfCells = '-1'; allowed: a number of things");
-    refuse("no types",
-           replaced(text, "\"types\"", "\"kinds\""),
-           "has no array 'types'");
-    refuse("a word among numbers",
-           replaced(text,
-                    "\"types\" format=\"ascii\">\n12",
-                    "\"types\" format=\"ascii\">\nx"),
-           "has the array 'types', with 'x', which is no integer");
-    refuse("a node that is none",
-           replaced(text,
-                    "\"connectivity\" format=\"ascii\">\n0",
-                    "\"connectivity\" format=\"ascii\">\n11"),
-           "has a cell 0 with the point 11; allowed: 0 to 10");
+    for (const Fault &fault : faults)
+      refuse(fault.name, replaced(text, fault.what, fault.by), fault.message);
     Grid other     = grid;
     other.types[0] = 42;
     refuse("a polyhedron",
@@ -395,15 +400,15 @@ namespace
            text_of(other),
            "has a cell 1 whose offset is 3");
     refuse("no ids", text_of(grid, {}, ""), "names no boundary");
-    refuse(
-      "elements within each other",
-      [] {
+    for (const std::string element : {"<a>", "<a b=\"/>\">"})
+      {
         std::string deep;
         for (unsigned int i = 0; i < 100000; ++i)
-          deep += "<a>";
-        return deep;
-      }(),
-      "more than 100 elements within each other");
+          deep += element;
+        refuse(element + " within each other",
+               deep,
+               "more than 100 elements within each other");
+      }
     const std::string packed = text_of(grid, packings[2]);
     refuse("an array that is cut",
            replaced(packed, "<Cells>", "<!--").insert(packed.size() / 2, "-->"),

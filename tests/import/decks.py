@@ -22,7 +22,7 @@ def section(elset, name, orientation=""):
 
 
 def step(*lines, options="", static="*STATIC"):
-    return "*STEP%s\n%s\n" % (options, static) + "".join(line if line.endswith("\n") else line + "\n" for line in lines) + "*NODE PRINT, NSET=PROBE\nU\n*END STEP\n"
+    return "*STEP%s\n%s\n" % (options, static) + "".join(line if line.endswith("\n") else line + "\n" for line in lines) + "*NODE PRINT, NSET=PROBE, GLOBAL=YES\nU\n*END STEP\n"
 
 
 ELASTIC = ("*ELASTIC", "210000., 0.3")
@@ -167,12 +167,12 @@ def press_fit():
 
 
 def block_under_gravity():
-    """A column of height 4 under its weight, without contraction."""
+    """A column of height 4 under its weight, without contraction; the length of a direction does not count."""
     mesh = Mesh().block("C3D20", (1, 1, 3), box(0, 0, 0, 1, 1, 4))
     top = mesh.node(1, 1, 4)
     text = mesh.text() + probe(top) + nset("FOOT", mesh.at(lambda x, y, z: near(z, 0)))
     text += material("STONE", "*ELASTIC", "1000., 0.", "*DENSITY", "2.") + section("BODY", "STONE") + "*BOUNDARY\nFOOT, 1, 3\n"
-    text += step("*DLOAD\nBODY, GRAV, 9.81, 0., 0., -1.", "*NODE PRINT, NSET=FOOT, TOTALS=ONLY\nRF\n")
+    text += step("*DLOAD\nBODY, GRAV, 9.81, 0., 0., -2.", "*NODE PRINT, NSET=FOOT, TOTALS=ONLY\nRF\n")
     return Deck(text, [("node_%d" % top, 2, -2 * 9.81 * 16 / 2 / 1000, 1e-6), ("FOOT", 2, 2 * 9.81 * 4, 1e-6)])
 
 
@@ -320,12 +320,116 @@ def included():
     """The bar of wedges with its mesh in a file of its own, and parts of the deck that have no counterpart."""
     deck = wedges()
     mesh, end, _ = bar("C3D15", (3, 2, 1))
-    text = deck.text.replace(mesh.text(), "*INCLUDE, INPUT=included_mesh.inc\n")
+    # lines of data and keywords
+    text = deck.text.replace(mesh.text(), "*NODE, NSET=NALL\n*INCLUDE, INPUT=included_nodes.inc\n*INCLUDE, INPUT=included_elements.inc\n")
     n = len(mesh.nodes)
     text = text.replace("*STEP", "*NODE\n%d, 5., 0., 0.\n*EQUATION\n2\n%d, 1, 1., %d, 1, -1.\n*STEP" % (n + 1, end, n + 1))
     text = text.replace("*NODE PRINT", "*CLOAD\n%d, 2, 0.\n%d, 3, 1.\n*NODE PRINT" % (end, n + 1))
-    deck = Deck(text, deck.checks, calculix=False, told=("*EQUATION", "*CLOAD"), files={"included_mesh.inc": mesh.text()})
+    deck = Deck(text, deck.checks, calculix=False, told=("*EQUATION", "*CLOAD"), files={"included_nodes.inc": mesh.nodes_text().split("\n", 1)[1], "included_elements.inc": mesh.elements_text()})
     return deck
+
+
+def held_points():
+    """Two blocks of 2 x 1 x 1 under a tension of 10: one held at three points, of which the second one is moved and turns it; one on two edges of its
+    base, the nodes of the second one moved along it."""
+    E, nu, e, turn = 1000., .25, .01, .002
+    mesh = Mesh().block("C3D8", (3, 2, 2), box(0, 0, 0, 2, 1, 1), "POINTS").block("C3D20", (3, 2, 2), box(0, 3, 0, 2, 4, 1), "EDGES")
+    one, two = mesh.node(2, 1, 1), mesh.node(2, 4, 1)
+    left, right = ([n for n in mesh.at(lambda x, y, z: near(x, d) and near(z, 0) and y >= 3)] for d in (0, 2))
+    text = mesh.text() + probe(one, two) + nset("L", left) + nset("R", right) + material("SOFT", "*ELASTIC", "%g, %g" % (E, nu))
+    text += section("POINTS", "SOFT") + section("EDGES", "SOFT") + surface("ENDS", mesh.sides(lambda x, y, z: near(x, 0)) + mesh.sides(lambda x, y, z: near(x, 2)))
+    text += "*BOUNDARY\n%d, 1, 3\n%d, 2, 2\n%d, 3, 3\nL, 1\nL, 3\nR, 3, 3\nR, 1, 1, %g\n" % (mesh.node(0, 0, 0), mesh.node(2, 0, 0), mesh.node(0, 1, 0), 2 * e)
+    text += "%d, 3, 3, %g\n" % (mesh.node(2, 0, 0), -2 * turn)
+    text += "".join("%d, 2, 2, %.12g\n" % (n, -nu * e * (mesh.nodes[n - 1][1] - 3)) for n in right)
+    text += step("*DSLOAD\nENDS, P, -10.")
+    checks = [("node_%d" % one, 0, 2 * e + turn, 1e-6), ("node_%d" % one, 1, -nu * e, 1e-6), ("node_%d" % one, 2, -nu * e - 2 * turn, 1e-6)]
+    return Deck(text, checks + [("node_%d" % two, d, v, 1e-6) for d, v in enumerate((2 * e, -nu * e, -nu * e))])
+
+
+def tilted(place):
+    """The places of a mesh with its z axis along (1, 1, 1)."""
+    axes = [(1 / math.sqrt(2), -1 / math.sqrt(2), 0.), (1 / math.sqrt(6), 1 / math.sqrt(6), -2 / math.sqrt(6)), [1 / math.sqrt(3)] * 3]
+    return axes, lambda *ijk: tuple(sum(a[d] * x for a, x in zip(axes, place(*ijk))) for d in range(3))
+
+
+def tilted_ring():
+    """A quarter of a ring of radii 1 and 2 in plane strain, whose outer face moves inwards; all supports are along its own axes."""
+    nu, a, b, inwards = .3, 1., 2., .01
+    axes, place = tilted(quarter_ring(a, b, .5))
+    plain = Mesh().block("C3D20", (6, 3, 1), quarter_ring(a, b, .5))
+    mesh = Mesh().block("C3D20", (6, 3, 1), place)
+    inner = plain.node(a, 0, 0)
+    text = mesh.text() + probe(inner) + material("STEEL", *ELASTIC) + section("BODY", "STEEL") + "*TRANSFORM, NSET=NALL, TYPE=C\n0., 0., 0., 1., 1., 1.\n"
+    text += nset("OUTER", plain.at(lambda x, y, z: near(math.hypot(x, y), b))) + nset("CUTS", plain.at(lambda x, y, z: near(x, 0) or near(y, 0)))
+    text += nset("ENDS", plain.at(lambda x, y, z: near(z, 0) or near(z, .5))) + "*BOUNDARY\nCUTS, 2\nENDS, 3\n" + step("*BOUNDARY\nOUTER, 1, 1, %g" % -inwards)
+    # u = A r + B / r without radial stress at a
+    B = -inwards / (b * (1 - 2 * nu) / a ** 2 + 1 / b)
+    u = B * ((1 - 2 * nu) / a + 1 / a)
+    return Deck(text, [("node_%d" % inner, d, u * axes[0][d], 2e-3) for d in (0, 1)])
+
+
+def tilted_bar():
+    """A bar along (1, -1, 0) with supports and forces along its own axes."""
+    axes, place = tilted(box(0, 0, 0, 3, 1, 1))
+    plain, mesh = Mesh().block("C3D8", (3, 1, 1), box(0, 0, 0, 3, 1, 1)), Mesh().block("C3D8", (3, 1, 1), place)
+    end = plain.node(3, 1, 1)
+    text = mesh.text() + probe(end) + nset("END", plain.at(lambda x, y, z: near(x, 3))) + material("STEEL", *ELASTIC) + section("BODY", "STEEL")
+    text += "*TRANSFORM, NSET=NALL\n" + ", ".join("%.15g" % x for x in [*axes[0], *axes[1]]) + "\n" + symmetric(plain, "x", "y", "z") + step("*CLOAD\nEND, 1, 25.")
+    u = [sum(a[d] * x for a, x in zip(axes, (300 / 210000., -30 / 210000., -30 / 210000.))) for d in range(3)]
+    return Deck(text, [("node_%d" % end, d, u[d], 1e-6) for d in range(3)], told=("*CLOAD",))
+
+
+def couplings():
+    """The ends of two bars of 2 x 1 x 4, clamped at z = 0: one is turned by 0.01 about a point away from it, the other one pulled beside its centre."""
+    E, P, arm = 1000., 10., .5
+    mesh = Mesh().block("C3D20", (2, 2, 4), box(-1, -.5, 0, 1, .5, 4), "TURNED").block("C3D20", (2, 2, 4), box(4, -.5, 0, 6, .5, 4), "PULLED")
+    one, two, n = mesh.node(1, 0, 4), mesh.node(6, 0, 4), len(mesh.nodes)
+    text = mesh.text() + "*NODE\n%d, 0., 0., 2.\n%d, %g, 0., 5.\n" % (n + 1, n + 2, 5 + arm) + probe(one, two) + nset("FIX", mesh.at(lambda x, y, z: near(z, 0)))
+    text += nset("HEAD", mesh.at(lambda x, y, z: near(z, 4) and x < 2)) + surface("FACE", mesh.sides(lambda x, y, z: near(z, 4), "PULLED"))
+    text += surface("HEADFACE", mesh.sides(lambda x, y, z: near(z, 4), "TURNED"))
+    text += material("SOFT", "*ELASTIC", "%g, 0." % E) + section("TURNED", "SOFT") + section("PULLED", "SOFT") + "*BOUNDARY\nFIX, 1, 3\n"
+    text += "*COUPLING, REF NODE=%d, SURFACE=HEADFACE, CONSTRAINT NAME=C1\n*KINEMATIC\n1, 3\n*COUPLING, REF NODE=%d, SURFACE=FACE, CONSTRAINT NAME=C2\n*DISTRIBUTING\n1, 6\n" % (n + 1, n + 2)
+    text += step("*BOUNDARY\n%d, 1, 6, 0.\n%d, 5, 5, 0.01\n*CLOAD\n%d, 3, %g" % (n + 1, n + 1, n + 2, P))
+    curvature = P * arm / (E * 8 / 12.)
+    checks = [("node_%d" % one, 0, .02, 1e-6), ("node_%d" % one, 2, -.01, 1e-6)]
+    return Deck(text, checks + [("node_%d" % two, 0, -curvature * 8, 1e-6), ("node_%d" % two, 2, 4 * P / 2 / E + 4 * curvature, 1e-6)], told=("*DISTRIBUTING",))
+
+
+def bolt():
+    """A bar between two walls is tightened by 10 at a cut in its middle; then a wall moves while the bolt keeps its length."""
+    mesh = Mesh().block("C3D8", (1, 1, 4), box(0, 0, 0, 1, 1, 4))
+    lower, upper = mesh.node(0, 0, 1), mesh.node(0, 0, 3)
+    text = mesh.text() + "*NODE\n1000, 0., 0., 0.\n" + probe(lower, upper) + nset("FOOT", mesh.at(lambda x, y, z: near(z, 0))) + nset("HEAD", mesh.at(lambda x, y, z: near(z, 4)))
+    text += surface("CUT", mesh.sides(lambda x, y, z: near(z, 2))[:1]) + material("SOFT", "*ELASTIC", "1000., 0.") + section("BODY", "SOFT")
+    text += "*PRE-TENSION SECTION, SURFACE=CUT, NODE=1000\n0., 0., -1.\n*BOUNDARY\nFOOT, 1, 3\nHEAD, 1, 3\n" + step("*CLOAD\n1000, 1, -10.") + step("*BOUNDARY, FIXED\n1000, 1, 1\n*BOUNDARY\nHEAD, 3, 3, 0.02")
+    return Deck(text, [("node_%d" % lower, 2, .015, 1e-6), ("node_%d" % upper, 2, .005, 1e-6)])
+
+
+def bedded_block():
+    """A block without contraction is pressed by 2 on an elastic foundation, as Abaqus has it."""
+    mesh = Mesh().block("C3D8", (2, 2, 2), box(0, 0, 0, 1, 1, 1))
+    top = mesh.node(1, 1, 1)
+    text = mesh.text() + probe(top) + surface("TOP", mesh.sides(lambda x, y, z: near(z, 1))) + material("SOFT", "*ELASTIC", "1000., 0.") + section("BODY", "SOFT") + symmetric(mesh, "x", "y")
+    text += "*FOUNDATION\n" + "".join("%d, F%d, 100.\n" % side for side in mesh.sides(lambda x, y, z: near(z, 0))) + step("*DSLOAD\nTOP, P, 2.")
+    return Deck(text, [("node_%d" % top, 2, -2 / 100. - 2 / 1000., 1e-6)], calculix=False)
+
+
+def load_at_once():
+    """A bar is pulled beyond its yield stress; in the second step the load is a smaller one at once."""
+    mesh, end, text = bar()
+    text += material("METAL", "*ELASTIC", "1000., 0.3", "*PLASTIC", "10., 0.", "20., 0.1") + section("BODY", "METAL") + symmetric(mesh, "x", "y", "z")
+    text += step("*DSLOAD\nEND, P, -12.") + step("*DSLOAD\nEND, P, -5.", options=", AMPLITUDE=STEP")
+    return Deck(text, [("node_%d" % end, 0, 3 * (.02 + .005), 1e-5)])
+
+
+def small_on_large():
+    """A small block, which is the slave and held across the normal, is pressed on a large one of a single element."""
+    mesh = Mesh().block("C3D8", (1, 1, 1), box(0, 0, 0, 1, 1, 1), "LARGE").block("C3D8", (1, 1, 1), box(.4, .4, 1, .6, .6, 1.2), "SMALL")
+    text = mesh.text() + probe(1) + nset("FIX", mesh.at(lambda x, y, z: near(z, 0))) + nset("GUIDE", mesh.at(lambda x, y, z: near(z, 1) and .3 < x < .7))
+    text += surface("UNDER", mesh.sides(lambda x, y, z: near(z, 1), "SMALL")) + surface("OVER", mesh.sides(lambda x, y, z: near(z, 1), "LARGE")) + surface("TOP", mesh.sides(lambda x, y, z: near(z, 1.2)))
+    text += material("STEEL", "*ELASTIC", "1000., 0.") + section("LARGE", "STEEL") + section("SMALL", "STEEL") + "*BOUNDARY\nFIX, 1, 3\nGUIDE, 1, 2\n"
+    text += "*SURFACE INTERACTION, NAME=TOUCH\n*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE\nUNDER, OVER\n" + step("*DSLOAD\nTOP, P, 10.")
+    return Deck(text, [("LARGE-FIX", 2, .4, 1e-6)], calculix=False, told=("the slave's faces",))
 
 
 DECKS = {
@@ -353,4 +457,12 @@ DECKS = {
     "assembly": assembly,
     "steps_in_sequence": steps_in_sequence,
     "included": included,
+    "held_points": held_points,
+    "tilted_ring": tilted_ring,
+    "tilted_bar": tilted_bar,
+    "couplings": couplings,
+    "bolt": bolt,
+    "bedded_block": bedded_block,
+    "load_at_once": load_at_once,
+    "small_on_large": small_on_large,
 }

@@ -92,7 +92,7 @@ TOP
 *ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL
 0,0,0,0,0,1
 *TRANSFORM, NSET=TOP
-0., 1., 0., -1., 0., 0.
+0.6, 0.8, 0., -0.8, 0.6, 0.
 *SURFACE INTERACTION, NAME=I
 *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL
 1., 2.
@@ -113,10 +113,10 @@ NALL, 20.
 0., 0., 0.5, 1., 1., 0.5
 *BOUNDARY
 FOOT, 1, 3
-99, 1, 6
+99, 1, 2
 5, 1
 *BOUNDARY
-TOP, ENCASTRE
+TOP, 1
 *STEP, NLGEOM
 *STATIC, DIRECT
 0.5, 1.
@@ -154,23 +154,21 @@ LOW, CENTRIF, 100., 0., 0., 0., 0., 0., 1.
   void
   check_remarks(const std::string &told)
   {
-    for (const std::string remark :
-         {"line 31: *ELEMENT, TYPE=B31",
-          "line 62: *CREEP of B",
-          "line 84: *MPC",
-          "line 86: *RIGID BODY",
-          "line 88: *KINEMATIC",
-          "line 94: *BOUNDARY of component 1 at 1 node that is not",
-          "line 96: *BOUNDARY of a node of no body",
-          "line 107: *DLOAD of the kind 'HP'",
-          "line 111: *CLOAD on 1 node that is not",
-          "line 112: *CLOAD on a node of no body",
-          "line 124: CENTRIF on the body LOW, which has no *DENSITY",
-          "line 54: *ELASTIC of B depends on the temperature",
-          "line 65: *HYPERELASTIC of C",
-          "line 77: PRESSURE-OVERCLOSURE=EXPONENTIAL is hard contact",
-          "line 119: *DYNAMIC: the step is static",
-          "line 121: *BOUNDARY, OP=NEW: what was held before"})
+    for (
+      const std::string remark :
+      {"line 31: *ELEMENT, TYPE=B31",
+       "line 62: *CREEP of B",
+       "line 84: *MPC",
+       "line 86: *RIGID BODY",
+       "line 88: *COUPLING with *KINEMATIC, whose reference node is free in the components 3, 4, 5, 6",
+       "line 107: *DLOAD of the kind 'HP'",
+       "line 111: *CLOAD on 1 node that is not",
+       "line 124: CENTRIF on the body LOW, which has no *DENSITY",
+       "line 54: *ELASTIC of B depends on the temperature",
+       "line 65: *HYPERELASTIC of C",
+       "line 77: PRESSURE-OVERCLOSURE=EXPONENTIAL is hard contact",
+       "line 119: *DYNAMIC: the step is static",
+       "line 121: *BOUNDARY, OP=NEW: what was held before"})
       verdict(holds(told, remark),
               "told: " + remark.substr(remark.find(": ") + 2),
               told);
@@ -187,15 +185,16 @@ LOW, CENTRIF, 100., 0., 0., 0., 0., 0., 1.
        // of a stiffness that is isotropic, with E = 1000 and nu = 0.3
        "set Shear moduli = 384.6153846, 384.6153846, 384.6153846",
        // 2 (9.81) of an amplitude 0, 1, 0.5, and 0 from t = 2 on
-       "set Body force = if(t < 0.5, 2*t, if(t < 1, 1 - 1*(t - 0.5), 0.5 - 0.5*(t - 1))); 0; "
-       "if(t < 0.5, -39.24*t, if(t < 1, -19.62 + 19.62*(t - 0.5), -9.81 + 9.81*(t - 1)))",
-       "set Temperature = if(t < 1, 100*t, 100)",
+       "set Body force = if(t <= 0.5, 2*t, if(t <= 1, 1 - 1*(t - 0.5), 0.5 - 0.5*(t - 1))); 0; "
+       "if(t <= 0.5, -39.24*t, if(t <= 1, -19.62 + 19.62*(t - 0.5), -9.81 + 9.81*(t - 1)))",
+       "set Temperature = if(t <= 1, 100*t, 100)",
        "set Kinematic hardening modulus = 100",
        "set Ogden terms = 100, 2; -50, -2",
        // K = 2 / D = 200 and mu = 150
        "set Poisson ratio = 0.2\n",
-       "set Traction = 0; 0; if(t < 1, 3*t, 3)",
-       "set Displacement axes = 0, 0, 90",
+       "set Traction = 0; 0; if(t <= 1, 3*t, 3)",
+       "set Displacement = 0, -, -\n    set Displacement axes = 0, 0, 53.1301023542",
+       "set Displacement at = 0, 0, 1: 0, -, -",
        "set Slave  = MID: to_HIGH",
        "set Slave  = MID: SLAVE\n  set Master = LOW: MASTER\n  set Law = contact\n"
        "  set Friction coefficient = 0.2\n  set Sliding = small\n  set Offset = 0.05\n",
@@ -268,5 +267,34 @@ main(int argc, char **argv)
     mesh +
       "*SOLID SECTION, ELSET=LOW, MATERIAL=X\n*MATERIAL, NAME=X\n*ELASTIC\n1., x\n",
     "'x', which is no number");
+  const std::string section = "*SOLID SECTION, ELSET=LOW, MATERIAL=X\n"
+                              "*MATERIAL, NAME=X\n*ELASTIC\n1., 0.3\n";
+  check_refused("a direction of no length",
+                mesh + section + "*STEP\n*STATIC\n*DLOAD\nLOW, GRAV, 1.\n",
+                "in line 52 a direction of no length");
+  check_refused("axes that are none",
+                mesh + section +
+                  "*TRANSFORM, NSET=TOP\n1., 0., 0., 2., 0., 0.\n",
+                "in line 49 axes by two points on a line through the origin");
+  check_refused("times that descend",
+                mesh + section + "*AMPLITUDE, NAME=A\n0., 0., 2., 1., 1., 0.\n",
+                "in line 50 an *AMPLITUDE whose times descend");
+  check_refused(
+    "a word for a clearance",
+    mesh + section +
+      "*SOLID SECTION, ELSET=MID, MATERIAL=X\n*CONTACT PAIR\n"
+      "SLAVE, MASTER\n*CLEARANCE, SLAVE=SLAVE, MASTER=MASTER, VALUE=x\n",
+    "in line 52 'x', which is no number");
+  check_refused(
+    "moduli of zero",
+    mesh +
+      "*SOLID SECTION, ELSET=LOW, MATERIAL=X\n*MATERIAL, NAME=X\n"
+      "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n0.,0.,0.,0.,0.,0.,0.,0.,\n0.\n",
+    "a value that is no finite number");
+  check_refused("an orientation that is none",
+                mesh +
+                  "*SOLID SECTION, ELSET=LOW, MATERIAL=X, ORIENTATION=O\n" +
+                  section.substr(section.find("*MATERIAL")),
+                "the orientation 'O', which it does not define");
   check_refused("another setting", deck, "--import with --set", "Part=LOW");
 }

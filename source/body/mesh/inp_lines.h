@@ -6,8 +6,10 @@
 #include <mortise/base/quotes.h>
 #include <mortise/body/mesh/inp_deck.h>
 
+#include <charconv>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -130,9 +132,11 @@ namespace mortise
     static std::optional<long>
     integer_if_any(const std::string &word)
     {
-      char      *end   = nullptr;
-      const long value = std::strtol(word.c_str(), &end, 10);
-      if (word.empty() || *end != '\0')
+      long        value = 0; // differences of two are numbers, too
+      const char *end   = word.c_str() + word.size();
+      if (const auto read = std::from_chars(word.c_str(), end, value);
+          read.ec != std::errc() || read.ptr != end ||
+          std::abs(value) > std::numeric_limits<long>::max() / 2)
         return {};
       return value;
     }

@@ -46,9 +46,16 @@ namespace mortise
       void
       begin_keyword()
       {
-        keyword = read_keyword();
-        if (keyword == "*INCLUDE")
-          return include(options["INPUT"]);
+        // lines of data may be in a file of their own
+        const auto        before       = options;
+        const std::string next_keyword = read_keyword();
+        if (next_keyword == "*INCLUDE")
+          {
+            include(options["INPUT"]);
+            options = before;
+            return;
+          }
+        keyword = next_keyword;
         if (keyword == "*PART")
           at = &parts[upper(needed("NAME"))];
         else if (keyword == "*INSTANCE")

@@ -19,6 +19,20 @@ namespace mortise
 {
   namespace
   {
+    /// The end of a tag, which is not within quotes.
+    std::size_t
+    end_of_tag(const std::string &xml, const std::size_t begin)
+    {
+      std::size_t at = xml.find_first_of("\"'>", begin);
+      while (at != std::string::npos && xml[at] != '>')
+        {
+          at = xml.find(xml[at], at + 1);
+          if (at != std::string::npos)
+            at = xml.find_first_of("\"'>", at + 1);
+        }
+      return at;
+    }
+
     /// Elements within each other; the parser calls itself for each of them.
     std::size_t
     depth_of(const std::string &xml)
@@ -30,9 +44,12 @@ namespace mortise
           depth -= depth > 0;
         else if (xml[at + 1] != '?' && xml[at + 1] != '!')
           {
-            const std::size_t end = xml.find('>', at);
-            if (end != std::string::npos && xml[end - 1] != '/')
+            const std::size_t end = end_of_tag(xml, at);
+            if (end == std::string::npos)
+              return std::max(most, depth + 1);
+            if (xml[end - 1] != '/')
               most = std::max(most, ++depth);
+            at = end;
           }
       return most;
     }
@@ -194,6 +211,8 @@ namespace mortise
     const std::string   name = attribute(array, "Name");
     const std::string   type = attribute(array, "type");
     std::vector<Number> result;
+    if (std::is_integral_v<Number> && type.rfind("Float", 0) == 0)
+      refuse(name, "whose type is " + type + "; allowed: integers");
     if (attribute(array, "format") == "ascii")
       result = from_text<Number>(array);
     else if (type == "Float64")

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -34,19 +35,25 @@ namespace mortise
       "*CLEARANCE",
       "*CLOAD",
       "*CONTACT PAIR",
+      "*COUPLING",
       "*DENSITY",
+      "*DISTRIBUTING",
       "*DLOAD",
       "*DSLOAD",
       "*ELASTIC",
       "*ELEMENT",
       "*EXPANSION",
+      "*FOUNDATION",
       "*FRICTION",
       "*HYPERELASTIC",
       "*INITIAL CONDITIONS",
+      "*KINEMATIC",
+      "*KINEMATIC COUPLING",
       "*MATERIAL",
       "*NODE PRINT",
       "*ORIENTATION",
       "*PLASTIC",
+      "*RIGID BODY",
       "*SOLID SECTION",
       "*STATIC",
       "*STEP",
@@ -64,7 +71,6 @@ namespace mortise
       "*NODE FILE",
       "*NODE OUTPUT",
       "*ELEMENT OUTPUT",
-      "*ELEMENT",
       "*EL FILE",
       "*EL PRINT",
       "*ENERGY PRINT",
@@ -86,6 +92,7 @@ namespace mortise
       "*DIAGNOSTICS",
       "*ENERGY OUTPUT",
       "*ELEMENT PRINT",
+      "*TIME POINTS",
       "*END"};
 
     /// Told by those who read sections and materials.
@@ -111,9 +118,27 @@ namespace mortise
       "*UNCOUPLED TEMPERATURE-DISPLACEMENT",
       "*VISCO"};
 
+    /// Read outside of steps only.
+    const std::set<std::string> of_model = {"*CONTACT PAIR",
+                                            "*COUPLING",
+                                            "*ELASTIC",
+                                            "*EXPANSION",
+                                            "*FRICTION",
+                                            "*MATERIAL",
+                                            "*PLASTIC",
+                                            "*SURFACE BEHAVIOR",
+                                            "*SURFACE INTERACTION",
+                                            "*TIE"};
+
     void
-    tell_unknown_keywords(const InpDeck &deck, ImportRemarks &remarks)
+    tell_unknown_keywords(const InpDeck     &deck,
+                          const ImportSteps &steps,
+                          ImportRemarks     &remarks)
     {
+      for (const ImportStep &step : steps.steps)
+        for (const InpBlock *block : step.blocks)
+          if (of_model.count(block->keyword) > 0)
+            remarks.left_out(block->place, block->keyword + " within a step");
       for (const InpBlock &block : deck.blocks)
         if (other_procedures.count(block.keyword) > 0)
           remarks.approximated(block.place,
@@ -197,8 +222,8 @@ namespace mortise
     std::string
     points_text(const ImportBodies &bodies)
     {
-      const InpDeck        &deck = bodies.deck;
-      std::set<std::string> entries;
+      const InpDeck                     &deck = bodies.deck;
+      std::map<std::string, std::string> entries; // places by name
       for (const InpBlock &block : deck.blocks)
         if (block.keyword == "*NODE PRINT" || block.keyword == "*NODE FILE" ||
             block.keyword == "*NODE OUTPUT")
@@ -215,17 +240,23 @@ namespace mortise
             for (const unsigned int node : nodes)
               if (!bodies.bodies_of_node[node].empty())
                 {
-                  const Point<3> &x = deck.nodes[node];
-                  entries.insert(
-                    "node_" + std::to_string(deck.node_tags[node]) + ": " +
-                    bodies.bodies[bodies.bodies_of_node[node][0]].name + ": " +
-                    number_text(x[0]) + ", " + number_text(x[1]) + ", " +
-                    number_text(x[2]));
+                  const Point<3>    &x = deck.nodes[node];
+                  const std::string &body =
+                    bodies.bodies[bodies.bodies_of_node[node][0]].name;
+                  const std::string at = body + ": " + number_text(x[0]) +
+                                         ", " + number_text(x[1]) + ", " +
+                                         number_text(x[2]);
+                  std::string name =
+                    "node_" + std::to_string(deck.node_tags[node]);
+                  if (const auto same = entries.find(name);
+                      same != entries.end() && same->second != at)
+                    name += "_" + body; // of another instance
+                  entries.emplace(name, at);
                 }
           }
       std::string text;
-      for (const std::string &entry : entries)
-        text += (text.empty() ? "" : "; ") + entry;
+      for (const auto &[name, at] : entries)
+        text += (text.empty() ? "" : "; ") + name + ": " + at;
       return text;
     }
 
@@ -248,7 +279,7 @@ namespace mortise
       ImportConditions       conditions(bodies, steps, remarks);
       const ImportInterfaces interfaces(bodies, conditions, steps, remarks);
       conditions.name_boundaries();
-      tell_unknown_keywords(deck, remarks);
+      tell_unknown_keywords(deck, steps, remarks);
 
       ImportFiles files;
       std::string names, sections;
@@ -267,6 +298,7 @@ namespace mortise
             "\nsubsection Body " + body.name +
             "\n  set Degree = " + degree_text(deck, body, of_body[b]) + "\n" +
             conditions.body_text(b, of_body[b]) + temperature +
+            conditions.supports_text(b) +
             "  subsection Mesh\n    set Source = file\n    set File   "
             "= " +
             mesh + "\n  end\n  subsection Material\n" + of_body[b].text +

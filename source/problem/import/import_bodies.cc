@@ -44,9 +44,47 @@ namespace mortise
   ImportBodies::ImportBodies(const InpDeck &deck, ImportRemarks &remarks)
     : deck(deck)
   {
+    find_cuts();
     find_bodies(sections(remarks));
     name_bodies();
     find_faces();
+    for (const InpBlock &block : deck.blocks)
+      if (block.keyword == "*PRE-TENSION SECTION" &&
+          std::none_of(shared.begin(), shared.end(), [&](const auto &s) {
+            return s.cut == &block;
+          }))
+        remarks.left_out(block.place,
+                         block.keyword +
+                           " that is no cut of a body into two by a *SURFACE "
+                           "of faces");
+  }
+
+  SideKey
+  ImportBodies::key_of(const InpSide &side) const
+  {
+    SideKey key;
+    for (const unsigned int v :
+         inp_shape(deck.elements[side.element].n_vertices).faces[side.face])
+      key.push_back(deck.elements[side.element].nodes[v]);
+    std::sort(key.begin(), key.end());
+    return key;
+  }
+
+  void
+  ImportBodies::find_cuts()
+  {
+    is_cut.resize(deck.nodes.size(), false);
+    for (const InpBlock &block : deck.blocks)
+      if (block.keyword == "*PRE-TENSION SECTION")
+        if (const auto surface = deck.surfaces.find(
+              deck.find_surface(block.option("SURFACE"), block.instance));
+            surface != deck.surfaces.end())
+          for (const InpSide &side : surface->second)
+            {
+              cuts.emplace(key_of(side), &block);
+              for (const unsigned int node : deck.nodes_of(side))
+                is_cut[node] = true;
+            }
   }
 
   /// The *SOLID SECTION of each element, nullptr for those without.
@@ -59,7 +97,8 @@ namespace mortise
         for (const unsigned int e :
              deck.find_elements(block.option("ELSET"), block.instance))
           section_of[e] = &block;
-      else if (block.keyword.size() > 8 &&
+      else if (block.keyword != "*PRE-TENSION SECTION" &&
+               block.keyword.size() > 8 &&
                block.keyword.compare(block.keyword.size() - 8, 8, " SECTION") ==
                  0)
         remarks.left_out(block.place, block.keyword + ", which is no solid");
@@ -88,8 +127,8 @@ namespace mortise
     return section_of;
   }
 
-  /// Elements that share nodes and have one material and orientation are one
-  /// body.
+  /// Elements that share nodes off the cuts and have one material and
+  /// orientation are one body.
   void
   ImportBodies::find_bodies(const std::vector<const InpBlock *> &section_of)
   {
@@ -109,6 +148,8 @@ namespace mortise
       if (section_of[e] != nullptr)
         for (const unsigned int node : deck.elements[e].nodes)
           {
+            if (is_cut[node])
+              continue;
             const auto entry = first[node].emplace(kind(*section_of[e]), e);
             const auto a = find(entry.first->second), b = find(e);
             root[std::max(a, b)] = std::min(a, b);
@@ -175,13 +216,7 @@ namespace mortise
         {
           const auto &shape = inp_shape(deck.elements[e].n_vertices);
           for (unsigned int f = 0; f < shape.faces.size(); ++f)
-            {
-              SideKey key;
-              for (const unsigned int v : shape.faces[f])
-                key.push_back(deck.elements[e].nodes[v]);
-              std::sort(key.begin(), key.end());
-              sides[key].push_back({b, {e, f}});
-            }
+            sides[key_of({e, f})].push_back({b, {e, f}});
         }
     for (const auto &[key, at] : sides)
       {
@@ -200,9 +235,27 @@ namespace mortise
               faces.push_back(face);
             }
         if (faces.size() == before + 2)
-          shared.push_back({static_cast<unsigned int>(before),
-                            static_cast<unsigned int>(before + 1)});
+          {
+            const auto cut = cuts.find(key);
+            shared.push_back({{{static_cast<unsigned int>(before),
+                                static_cast<unsigned int>(before + 1)}},
+                              cut == cuts.end() ? nullptr : cut->second});
+          }
       }
+  }
+
+  Tensor<1, 3>
+  ImportBodies::normal_of(const ImportFace &face) const
+  {
+    const auto  &x             = deck.nodes;
+    const auto  &n             = face.nodes;
+    const bool   quadrilateral = face.n_vertices == 4;
+    Tensor<1, 3> normal        = cross_product_3d(x[n[quadrilateral ? 3 : 2]] -
+                                             x[n[quadrilateral ? 1 : 0]],
+                                           x[n[quadrilateral ? 2 : 1]] -
+                                             x[n[0]]); // seen from within
+    const double length        = normal.norm();
+    return length > 0. ? normal / length : normal;
   }
 
   std::vector<unsigned int>

@@ -33,6 +33,13 @@ namespace mortise
   /// The vertices of a side, ascending.
   using SideKey = std::vector<unsigned int>;
 
+  /// Faces at which two bodies share nodes.
+  struct ImportShared
+  {
+    std::array<unsigned int, 2> faces;
+    const InpBlock             *cut; ///< *PRE-TENSION SECTION; or nullptr
+  };
+
   struct ImportBodies
   {
     ImportBodies(const InpDeck &deck, ImportRemarks &remarks);
@@ -41,11 +48,14 @@ namespace mortise
     std::vector<unsigned int>
     faces_of(const std::vector<InpSide> &sides) const;
 
-    const InpDeck          &deck;
-    std::vector<ImportBody> bodies;
-    std::vector<ImportFace> faces; ///< those of only one element of a body
-    /// Faces at which two bodies share nodes.
-    std::vector<std::array<unsigned int, 2>> shared;
+    /// The outward normal, of length 1, or 0 where a face has no area.
+    dealii::Tensor<1, 3>
+    normal_of(const ImportFace &face) const;
+
+    const InpDeck            &deck;
+    std::vector<ImportBody>   bodies;
+    std::vector<ImportFace>   faces; ///< those of only one element of a body
+    std::vector<ImportShared> shared;
     /// Bodies of each node.
     std::vector<std::vector<unsigned int>> bodies_of_node;
 
@@ -53,13 +63,20 @@ namespace mortise
     std::vector<const InpBlock *>
     sections(ImportRemarks &remarks) const;
     void
+    find_cuts();
+    void
     find_bodies(const std::vector<const InpBlock *> &section_of);
     void
     name_bodies();
     void
     find_faces();
 
+    SideKey
+    key_of(const InpSide &side) const;
+
     std::map<std::array<unsigned int, 2>, unsigned int> place; ///< of a side
+    std::map<SideKey, const InpBlock *> cuts;   ///< faces that part bodies
+    std::vector<bool>                   is_cut; ///< by node
   };
 
   /// A name that a scene may have, of one that may be anything; never one of

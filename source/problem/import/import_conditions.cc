@@ -19,6 +19,7 @@ namespace mortise
     , steps(steps)
     , remarks(remarks)
   {
+    find_references();
     for (const InpBlock *block : steps.model)
       read(*block, 0);
     for (std::size_t step = 0; step < steps.steps.size(); ++step)
@@ -26,6 +27,7 @@ namespace mortise
         read(*block, step + 1);
     tell_released_supports();
     find_supports();
+    find_couplings();
     find_forces();
     // elements that are loaded alike, each in a line of its own, are one load
     std::map<std::string, std::pair<ImportCondition, std::set<unsigned int>>>
@@ -58,6 +60,8 @@ namespace mortise
       "*BOUNDARY", "*CLOAD", "*DLOAD", "*DSLOAD", "*TEMPERATURE"};
     if (acting.count(block.keyword) > 0)
       {
+        if (block.has("FIXED") && is_kept(block, step))
+          return;
         for (const std::string option :
              {"USER", "SUBMODEL", "FIXED", "FILE", "CYCLIC MODE"})
           if (block.has(option))
@@ -68,23 +72,13 @@ namespace mortise
                              "the option " + option + " of " + block.keyword);
       }
     if (block.keyword == "*TRANSFORM")
-      {
-        const auto x = block.lines.empty() ? std::vector<double>() :
-                                             import_numbers(block.lines[0]);
-        const bool straight =
-          x.size() == 6 && upper(block.option("TYPE")).find_first_of("CS") != 0;
-        for (const unsigned int node :
-             deck.find_nodes(block.option("NSET"), block.instance))
-          local_axes[node] =
-            straight ? angles_text(axes_of(Tensor<1, 3>({x[0], x[1], x[2]}),
-                                           Tensor<1, 3>({x[3], x[4], x[5]}))) :
-                       "round";
-      }
+      read_transform(block);
     else if (block.keyword == "*BOUNDARY")
       read_boundary(block, step);
     else if (block.keyword == "*CLOAD")
       read_nodal_forces(block, step);
-    else if (block.keyword == "*DLOAD" || block.keyword == "*DSLOAD")
+    else if (block.keyword == "*DLOAD" || block.keyword == "*DSLOAD" ||
+             block.keyword == "*FOUNDATION")
       read_loads(block, step);
     else if (block.keyword == "*TEMPERATURE" ||
              (block.keyword == "*INITIAL CONDITIONS" &&
@@ -93,6 +87,45 @@ namespace mortise
     else if (block.keyword == "*INITIAL CONDITIONS")
       remarks.left_out(block.place,
                        block.keyword + ", TYPE=" + block.option("TYPE"));
+  }
+
+  void
+  ImportConditions::read_transform(const InpBlock &block)
+  {
+    const auto        x     = block.lines.empty() ? std::vector<double>() :
+                                                    import_numbers(block.lines[0]);
+    const std::string kind  = upper(block.option("TYPE")).substr(0, 1);
+    const bool        round = kind == "C";
+    if (x.size() != 6 || kind == "S")
+      return remarks.left_out(block.place,
+                              "*TRANSFORM that is neither of TYPE=R nor of "
+                              "TYPE=C with two points");
+    const Tensor<1, 3> a({x[0], x[1], x[2]}), b({x[3], x[4], x[5]});
+    const Tensor<2, 3> fixed =
+      round ? Tensor<2, 3>() : axes_of(a, b, block.place);
+    for (const unsigned int node :
+         deck.find_nodes(block.option("NSET"), block.instance))
+      {
+        LocalSystem &at = local_axes[node];
+        at              = {fixed, round, 0.};
+        if (!round)
+          continue;
+        // z along the axis from a to b, x to the node
+        const Tensor<1, 3> axis   = b - a;
+        Tensor<1, 3>       radial = Tensor<1, 3>(deck.nodes[node]) - a;
+        if (axis.norm() > 0.)
+          radial -= (radial * axis) / axis.norm_square() * axis;
+        at.radius = radial.norm();
+        if (at.radius > 1e-12 * axis.norm())
+          at.axes =
+            axes_of(radial, cross_product_3d(axis, radial), block.place);
+        else
+          {
+            local_axes.erase(node);
+            remarks.left_out(block.place,
+                             "*TRANSFORM, TYPE=C of a node on its axis");
+          }
+      }
   }
 
   unsigned int
@@ -147,7 +180,8 @@ namespace mortise
         return face.body == body &&
                std::count(all.begin(), all.end(), condition) > 0 &&
                std::any_of(all.begin(), all.end(), [&](const auto c) {
-                 return conditions[c].kind == ImportCondition::Kind::support;
+                 return conditions[c].kind == ImportCondition::Kind::support ||
+                        conditions[c].kind == ImportCondition::Kind::motion;
                });
       });
   }
@@ -167,6 +201,12 @@ namespace mortise
     }
 
     std::string
+    history_text(const std::array<ImportHistory, 3> &x)
+    {
+      return three({x[0].text(), x[1].text(), x[2].text()}, "; ");
+    }
+
+    std::string
     vector_setting(const std::string                  &name,
                    const std::array<ImportHistory, 3> &x)
     {
@@ -174,8 +214,31 @@ namespace mortise
             return h.is_zero();
           }))
         return "";
-      return setting(name,
-                     three({x[0].text(), x[1].text(), x[2].text()}, "; "));
+      return setting(name, history_text(x));
+    }
+
+    /// Add components along the axes of the scene to those along @p axes; false:
+    /// one of them is parallel to none of these.
+    bool
+    add_components(const std::array<std::string, 3> &of_scene,
+                   const Tensor<2, 3>               &axes,
+                   std::array<std::string, 3>       &local)
+    {
+      bool all = true;
+      for (unsigned int d = 0; d < 3; ++d)
+        if (of_scene[d] != "-")
+          {
+            bool found = false;
+            for (unsigned int c = 0; c < 3; ++c)
+              if (std::fabs(axes[d][c]) > 1. - 1e-9)
+                {
+                  found = true;
+                  local[c] =
+                    axes[d][c] > 0. ? of_scene[d] : "-(" + of_scene[d] + ")";
+                }
+            all = all && found;
+          }
+      return all;
     }
 
     std::array<ImportHistory, 3>
@@ -222,8 +285,10 @@ namespace mortise
     std::string text;
     for (const auto &[name, faces] : boundaries)
       {
-        std::array<std::string, 3>   displacement = {{"-", "-", "-"}};
-        std::string                  axes, pressure, lines;
+        std::array<std::string, 3> displacement = free_components,
+                                   local        = free_components;
+        Tensor<2, 3>                 axes;
+        std::string                  normal, motion, stiffness, pressure, lines;
         std::array<ImportHistory, 3> traction, force, moment;
         for (const unsigned int c : bodies.faces[faces[0]].conditions)
           {
@@ -231,9 +296,29 @@ namespace mortise
             switch (condition.kind)
               {
                 case ImportCondition::Kind::support:
-                  displacement[condition.component] =
-                    affine_text(condition.value);
-                  axes = condition.axes;
+                  if (condition.component == ImportCondition::normal)
+                    normal = affine_text(condition.value);
+                  else if (condition.axes.norm() > 0.)
+                    {
+                      local[condition.component] = affine_text(condition.value);
+                      axes                       = condition.axes;
+                    }
+                  else
+                    displacement[condition.component] =
+                      affine_text(condition.value);
+                  break;
+                case ImportCondition::Kind::motion:
+                  displacement = condition.displacement;
+                  motion =
+                    setting("Rotation", history_text(condition.traction)) +
+                    setting("Reference point",
+                            number_text(condition.reference[0]) + ", " +
+                              number_text(condition.reference[1]) + ", " +
+                              number_text(condition.reference[2]));
+                  break;
+                case ImportCondition::Kind::foundation:
+                  stiffness += (stiffness.empty() ? "" : " + ") +
+                               affine_text(condition.value);
                   break;
                 case ImportCondition::Kind::pressure:
                   pressure += (pressure.empty() ? "" : " + ") +
@@ -267,10 +352,26 @@ namespace mortise
                   break;
               }
           }
-        if (displacement != std::array<std::string, 3>{{"-", "-", "-"}})
+        bool both = !normal.empty() && displacement != free_components;
+        if (axes.norm() > 0.)
+          {
+            both         = !add_components(displacement, axes, local) || both;
+            displacement = local;
+          }
+        if (both)
+          remarks.left_out("*BOUNDARY",
+                           "of the body " + bodies.bodies[body].name + " at " +
+                             name +
+                             ", along the axes of the scene beside others");
+        if (!normal.empty())
+          lines += setting("Displacement", "normal: " + normal);
+        else if (displacement != free_components)
           lines += setting("Displacement", three(displacement, ", "));
-        if (!axes.empty())
-          lines += setting("Displacement axes", axes);
+        if (axes.norm() > 0.)
+          lines += setting("Displacement axes", angles_text(axes));
+        lines += motion;
+        if (!stiffness.empty())
+          lines += setting("Normal stiffness", stiffness);
         if (!pressure.empty())
           lines += setting("Pressure", pressure);
         lines += vector_setting("Traction", traction) +

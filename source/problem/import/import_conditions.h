@@ -16,6 +16,9 @@
 
 namespace mortise
 {
+  /// Nothing is prescribed.
+  inline const std::array<std::string, 3> free_components = {{"-", "-", "-"}};
+
   /// A force on faces, with its moment about their centroid.
   struct ImportForce
   {
@@ -30,18 +33,23 @@ namespace mortise
     enum class Kind
     {
       support,
+      motion, ///< rigid, of a coupling
+      foundation,
       pressure,
       traction,
       force,
       side ///< of an interface
     };
+    static constexpr unsigned int normal = 3; ///< a component
 
-    Kind                         kind;
-    std::string                  name; ///< of the set or surface of the deck
-    unsigned int                 component = 0; ///< of a support
-    std::string                  axes;          ///< of a support; empty: none
-    AffineHistory                value;         ///< of a support or pressure
-    std::array<ImportHistory, 3> traction;
+    Kind                 kind;
+    std::string          name;          ///< of the set or surface of the deck
+    unsigned int         component = 0; ///< of a support
+    dealii::Tensor<2, 3> axes;  ///< of a support, by columns; zero: the scene's
+    AffineHistory        value; ///< of a support, pressure or foundation
+    std::array<ImportHistory, 3> traction;     ///< of a motion: its rotation
+    std::array<std::string, 3>   displacement; ///< of a motion
+    dealii::Point<3>             reference;    ///< of a motion
     ImportForce                  force;
   };
 
@@ -70,6 +78,15 @@ namespace mortise
     std::string
     body_text(unsigned int body, const ImportMaterial &material) const;
 
+    /// Points and edges of a body that are held.
+    std::string
+    supports_text(unsigned int body) const;
+
+    /// The force of a *PRE-TENSION SECTION and since when it is kept, as lines
+    /// of an interface; empty if nothing acts.
+    std::string
+    preload_text(const InpBlock &section);
+
     /// Temperature of a body above the initial one, empty if there is none.
     std::string
     temperature_text(unsigned int body) const;
@@ -77,6 +94,13 @@ namespace mortise
     /// Is a face of a body with a condition held in any component?
     bool
     is_held(unsigned int body, unsigned int condition) const;
+
+    /// Faces of a body with a condition that are held across their normals
+    /// alone are held along their edges instead: a slave is no held boundary.
+    void
+    hold_edges(unsigned int       body,
+               unsigned int       condition,
+               const std::string &place);
 
     /// "body: boundary, boundary" of the faces with a condition, empty if it
     /// has none.
@@ -92,6 +116,20 @@ namespace mortise
     {
       std::vector<ImportChange> changes;
       unsigned int              source;
+    };
+    struct LocalSystem ///< of *TRANSFORM, at a node
+    {
+      dealii::Tensor<2, 3> axes;  ///< by columns
+      bool                 round; ///< radial, tangential, axial
+      double               radius;
+    };
+    /// The node that a set of nodes follows, or whose load acts on them.
+    struct Reference
+    {
+      std::string place;
+      bool        preload = false; ///< of a *PRE-TENSION SECTION
+      std::array<std::vector<ImportChange>, 6> motion, load;
+      std::size_t fixed_from = 0; ///< step of *BOUNDARY, FIXED; 0: none
     };
     struct Source ///< of prescribed displacements: a set, or single nodes
     {
@@ -124,11 +162,17 @@ namespace mortise
     void
     read_boundary(const InpBlock &block, std::size_t step);
     void
-    prescribe(const InpBlock &block,
-              const InpLine  &line,
-              unsigned int    component,
-              double          value,
-              std::size_t     step);
+    prescribe(const InpBlock                  &block,
+              const InpLine                   &line,
+              const std::vector<unsigned int> &components,
+              double                           value,
+              std::size_t                      step);
+    void
+    read_transform(const InpBlock &block);
+    void
+    find_references();
+    bool
+    is_kept(const InpBlock &block, std::size_t step);
     void
     read_nodal_forces(const InpBlock &block, std::size_t step);
     void
@@ -149,10 +193,47 @@ namespace mortise
     std::vector<unsigned int>
     held_faces(unsigned int component) const;
     void
+    turn_supports();
+    double
+    set_axes(const ImportFace &face,
+             unsigned int      component,
+             ImportCondition  &condition) const;
+    void
     find_supports();
     void
     find_affine_supports(unsigned int                     component,
                          const std::vector<unsigned int> &faces);
+    void
+    find_points();
+    void
+    find_edges(unsigned int                           body,
+               std::array<std::set<unsigned int>, 3> &of_edges);
+    using EdgesByValues = std::map<std::array<std::string, 3>,
+                                   std::vector<std::array<unsigned int, 2>>>;
+    void
+    add_lines(unsigned int body, const EdgesByValues &alike);
+    std::string
+    values_text(unsigned int                     component,
+                const std::vector<unsigned int> &nodes) const;
+    void
+    tell_unsupported() const;
+    void
+    find_couplings();
+    std::vector<unsigned int>
+    coupled_faces(const InpBlock &block, const std::string &name) const;
+    void
+    add_motion(const std::vector<unsigned int> &faces,
+               const std::string               &name,
+               const std::array<bool, 3>       &follows,
+               const Reference                 &reference,
+               const dealii::Point<3>          &at,
+               const std::string               &what);
+    void
+    add_distributed(const std::vector<unsigned int> &faces,
+                    const std::string               &name,
+                    const Reference                 &reference,
+                    const dealii::Point<3>          &at,
+                    const std::string               &what);
     void
     find_forces();
     void
@@ -169,8 +250,16 @@ namespace mortise
     std::vector<Source> sources;
     std::map<std::size_t, std::string>
       new_supports; ///< places of OP=NEW, by step
-    std::array<std::map<unsigned int, Supported>, 3> supported; ///< by node
-    std::map<unsigned int, std::string> local_axes; ///< of *TRANSFORM, by node
+    /// By node: three components along the axes of the scene, then three along
+    /// those of *TRANSFORM. Those of the latter that lie in axes of the scene
+    /// are both.
+    std::array<std::map<unsigned int, Supported>, 6> supported;
+    std::array<std::set<unsigned int>, 6> covered; ///< by what is found
+    std::map<unsigned int, std::array<bool, 3>>
+      scene_axes; ///< local components that are components of the scene, too
+    std::map<unsigned int, LocalSystem>               local_axes;
+    std::map<unsigned int, Reference>                 references; ///< by node
+    std::vector<std::vector<std::string>>             held_at;    ///< by body
     std::array<std::map<unsigned int, NodalForce>, 3> nodal_forces;
     std::map<std::string, FaceLoad>                   face_loads;
     std::map<std::string, BodyForce>                  body_forces;

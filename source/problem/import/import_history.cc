@@ -17,6 +17,9 @@ namespace mortise
   std::string
   number_text(const double value)
   {
+    if (!std::isfinite(value))
+      throw InputError("--import: the deck has a value that is no finite "
+                       "number, as of a division by zero");
     std::ostringstream text;
     text.precision(12);
     text << value;
@@ -26,19 +29,25 @@ namespace mortise
   double
   ImportHistory::at(const double t) const
   {
-    if (points.empty())
-      return 0.;
     for (std::size_t i = 0; i < points.size(); ++i)
-      if (t < points[i].first)
+      if (t <= points[i].first)
         {
-          if (i == 0)
-            break;
+          if (i == 0 || t == points[i].first)
+            return points[i].second;
           const auto &[t0, v0] = points[i - 1];
           return v0 +
                  (points[i].second - v0) * (t - t0) / (points[i].first - t0);
         }
-    return t < points.front().first ? points.front().second :
-                                      points.back().second;
+    return points.empty() ? 0. : points.back().second;
+  }
+
+  double
+  ImportHistory::after(const double t) const
+  {
+    for (std::size_t i = points.size(); i-- > 0;)
+      if (t == points[i].first)
+        return points[i].second;
+    return at(t);
   }
 
   bool
@@ -71,7 +80,7 @@ namespace mortise
         // the last piece needs no end where the last step has its end
         if (i + 1 < points.size())
           {
-            text += "if(t < " + number_text(t1) + ", " + piece + ", ";
+            text += "if(t <= " + number_text(t1) + ", " + piece + ", ";
             end += ")";
           }
         else
@@ -100,7 +109,12 @@ namespace mortise
         times.insert(point.first);
     ImportHistory sum;
     for (const double t : times)
-      sum.points.emplace_back(t, at(t) + other.at(t));
+      {
+        sum.points.emplace_back(t, at(t) + other.at(t));
+        if (const double next = after(t) + other.after(t);
+            next != sum.points.back().second)
+          sum.points.emplace_back(t, next);
+      }
     return sum;
   }
 
@@ -248,8 +262,15 @@ namespace mortise
     amplitude.total_time = upper(block.option("TIME")).rfind("TOTAL", 0) == 0;
     for (const InpLine &line : block.lines)
       for (std::size_t i = 0; i + 1 < line.words.size(); i += 2)
-        amplitude.history.points.emplace_back(number_of(line, i, 0.),
-                                              number_of(line, i + 1, 0.));
+        {
+          amplitude.history.points.emplace_back(number_of(line, i, 0.),
+                                                number_of(line, i + 1, 0.));
+          const auto &points = amplitude.history.points;
+          if (points.size() > 1 &&
+              points.back().first < points[points.size() - 2].first)
+            throw InputError("--import: the deck has in " + line.place +
+                             " an *AMPLITUDE whose times descend");
+        }
     amplitudes[upper(block.option("NAME"))] = amplitude;
   }
 
@@ -290,12 +311,18 @@ namespace mortise
         const auto        found = amplitudes.find(change.amplitude);
         if (step.start > result.points.back().first)
           result.points.emplace_back(step.start, value);
+        // a jump at the start of all is none
+        const auto jump = [&](const double to) {
+          if (step.start == 0.)
+            result.points.back().second = to;
+          else if (to != result.points.back().second)
+            result.points.emplace_back(step.start, to);
+        };
         if (found != amplitudes.end())
           {
             const Amplitude &a      = found->second;
             const double     offset = a.total_time ? 0. : step.start;
-            result.points.back().second =
-              change.value * a.history.at(step.start - offset);
+            jump(change.value * a.history.after(step.start - offset));
             for (const auto &[t, factor] : a.history.points)
               if (t + offset > step.start && t + offset < end)
                 result.points.emplace_back(t + offset, change.value * factor);
@@ -305,7 +332,7 @@ namespace mortise
           {
             value = change.value;
             if (step.at_once)
-              result.points.back().second = value;
+              jump(value);
           }
         result.points.emplace_back(end, value);
       }

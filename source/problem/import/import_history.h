@@ -12,17 +12,23 @@
 
 namespace mortise
 {
-  /// As scenes have numbers: as many digits as are needed, up to 12.
+  /// As scenes have numbers: as many digits as are needed, up to 12. Throws
+  /// InputError for what is no finite number.
   std::string
   number_text(double value);
 
-  /// Linear between points (t, value), constant before and beyond them.
+  /// Linear between points (t, value), constant before and beyond them. Of two
+  /// points at one time the first one counts there, the second one after it.
   struct ImportHistory
   {
     std::vector<std::pair<double, double>> points;
 
     double
     at(double t) const;
+
+    /// Where there is a jump, the value after it.
+    double
+    after(double t) const;
 
     bool
     is_zero() const;

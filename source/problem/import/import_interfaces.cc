@@ -18,6 +18,13 @@ namespace mortise
     {
       return "  set " + name + " = " + value + "\n";
     }
+
+    std::string
+    number_of(const InpBlock &block, const std::string &option)
+    {
+      return number_text(
+        import_numbers({{block.option(option)}, block.place})[0]);
+    }
   } // namespace
 
   ImportInterfaces::ImportInterfaces(ImportBodies      &bodies,
@@ -57,12 +64,13 @@ namespace mortise
                                  block->keyword + " of a surface with itself");
                 continue;
               }
-            std::string       lines     = tie ? law_line("Law", "tie") :
-                                                contact_lines(*block) +
+            std::string lines = tie ? law_line("Law", "tie") :
+                                      contact_lines(*block) +
                                         clearance(line.words[0], line.words[1]);
-            const std::string tolerance = block->option("POSITION TOLERANCE");
-            if (tie && !tolerance.empty())
-              lines += law_line("Search distance", "length " + tolerance);
+            if (tie && block->has("POSITION TOLERANCE"))
+              lines +=
+                law_line("Search distance",
+                         "length " + number_of(*block, "POSITION TOLERANCE"));
             add_pair(tie && !block->option("NAME").empty() ?
                        block->option("NAME") :
                        line.words[0] + "-" + line.words[1],
@@ -74,28 +82,42 @@ namespace mortise
           }
   }
 
+  std::string
+  ImportInterfaces::unused_name(const std::string &name) const
+  {
+    std::vector<std::string> others;
+    for (const Interface &its : interfaces)
+      others.push_back(its.name);
+    return scene_name(name, others);
+  }
+
   /// Where bodies share nodes they hold together.
   void
   ImportInterfaces::tie_shared_faces()
   {
-    std::map<std::pair<unsigned int, unsigned int>,
+    std::map<std::tuple<unsigned int, unsigned int, const InpBlock *>,
              std::array<std::vector<unsigned int>, 2>>
       pairs;
-    for (const auto &[a, b] : bodies.shared)
+    for (const ImportShared &shared : bodies.shared)
       {
-        auto &faces = pairs[{bodies.faces[a].body, bodies.faces[b].body}];
+        const auto [a, b] = shared.faces;
+        auto &faces =
+          pairs[{bodies.faces[a].body, bodies.faces[b].body, shared.cut}];
         faces[0].push_back(a);
         faces[1].push_back(b);
       }
     for (const auto &[pair, faces] : pairs)
       {
+        const auto [a, b, cut] = pair;
         Interface interface;
-        interface.slave_body     = pair.first;
-        interface.master_body    = pair.second;
-        const std::string slave  = bodies.bodies[pair.first].name,
-                          master = bodies.bodies[pair.second].name;
-        interface.name           = slave + "-" + master;
+        interface.slave_body     = a;
+        interface.master_body    = b;
+        const std::string slave  = bodies.bodies[a].name,
+                          master = bodies.bodies[b].name;
+        interface.name           = unused_name(slave + "-" + master);
         interface.lines          = law_line("Law", "tie");
+        if (cut != nullptr)
+          interface.lines += conditions.preload_text(*cut);
         ImportCondition condition;
         condition.kind   = ImportCondition::Kind::side;
         condition.name   = "to_" + master;
@@ -185,10 +207,9 @@ namespace mortise
           interface.slave       = one.condition;
           interface.master      = other.condition;
           interface.lines       = lines;
-          std::vector<std::string> others;
-          for (const Interface &its : interfaces)
-            others.push_back(its.name);
-          interface.name = scene_name(name, others);
+          interface.name        = unused_name(name);
+          if (block.keyword == "*CONTACT PAIR")
+            conditions.hold_edges(s, one.condition, line.place);
           interfaces.push_back(interface);
         }
   }
@@ -220,7 +241,6 @@ namespace mortise
       remarks.approximated(block.place,
                            "ADJUST: no node is moved; gaps and overlaps of "
                            "the meshes count");
-    contact           = true;
     std::string lines = law_line("Law", "contact");
     if (const auto friction = frictions.find(interaction);
         friction != frictions.end() && !friction->second->lines.empty())
@@ -243,7 +263,7 @@ namespace mortise
     for (const InpBlock *block : clearances)
       if (upper(block->option("SLAVE")) == upper(slave) &&
           upper(block->option("MASTER")) == upper(master))
-        return law_line("Offset", block->option("VALUE")) +
+        return law_line("Offset", number_of(*block, "VALUE")) +
                law_line("Mesh gap", "ignored");
     return "";
   }

@@ -34,8 +34,6 @@ namespace mortise
     std::string
     text() const;
 
-    bool contact = false; ///< is there one?
-
   private:
     struct Side
     {
@@ -49,6 +47,8 @@ namespace mortise
       std::string  lines;                                  ///< of its section
     };
 
+    std::string
+    unused_name(const std::string &name) const;
     void
     tie_shared_faces();
     void

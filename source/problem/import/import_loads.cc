@@ -29,12 +29,40 @@ namespace mortise
         changes.push_back({step, 0., ""});
     }
 
-    /// A load with the same key replaces that of an earlier step.
-    std::string
-    key_of(const InpBlock &block, const InpLine &line)
+    /// A load on the same set and of the same kind replaces that of an earlier
+    /// step, which ends where its direction is another one.
+    template <typename Load>
+    Load &
+    load_of(std::map<std::string, Load> &loads,
+            const InpBlock              &block,
+            const InpLine               &line,
+            const std::size_t            step)
     {
-      return block.keyword + ":" + block.instance + ":" + upper(line.words[0]) +
-             ":" + upper(line.words[1]);
+      const std::string same = block.keyword + ":" + block.instance + ":" +
+                               upper(line.words[0]) + ":" +
+                               upper(line.words[1]) + ":";
+      std::string key = same;
+      for (const double number : import_numbers(line, 3))
+        key += number_text(number) + ",";
+      for (auto &[other, load] : loads)
+        if (other != key && other.compare(0, same.size(), same) == 0)
+          end_load(load.changes, step);
+      return loads[key];
+    }
+
+    /// Of length 1.
+    Tensor<1, 3>
+    direction_of(const InpLine             &line,
+                 const std::vector<double> &numbers,
+                 const unsigned int         first)
+    {
+      Tensor<1, 3> direction;
+      for (unsigned int d = 0; d < 3 && first + d < numbers.size(); ++d)
+        direction[d] = numbers[first + d];
+      if (!(direction.norm() > 0.))
+        throw InputError("--import: the deck has in " + line.place +
+                         " a direction of no length");
+      return direction / direction.norm();
     }
 
     double
@@ -65,7 +93,9 @@ namespace mortise
         const bool pressure =
           kind == "P" || (kind.size() == 2 && kind[0] == 'P' &&
                           kind[1] >= '1' && kind[1] <= '6');
-        if (pressure || (kind == "TRVEC" && line.words.size() > 5))
+        const bool foundation = block.keyword == "*FOUNDATION";
+        if (pressure || foundation ||
+            (kind == "TRVEC" && line.words.size() > 5))
           read_face_load(block, line, step);
         else if (kind == "GRAV" || kind == "CENTRIF" || kind == "BX" ||
                  kind == "BY" || kind == "BZ")
@@ -83,7 +113,7 @@ namespace mortise
                                    const std::size_t step)
   {
     const std::string kind = upper(line.words[1]);
-    FaceLoad         &load = face_loads[key_of(block, line)];
+    FaceLoad         &load = load_of(face_loads, block, line, step);
     if (load.changes.empty())
       {
         std::vector<InpSide> sides;
@@ -108,9 +138,10 @@ namespace mortise
                                   block.keyword + " on " +
                                     in_quotes(line.words[0], '\'') +
                                     ", which has no outer faces of a body");
-        load.condition.kind = kind == "TRVEC" ?
-                                ImportCondition::Kind::traction :
-                                ImportCondition::Kind::pressure;
+        load.condition.kind =
+          kind == "TRVEC"                ? ImportCondition::Kind::traction :
+          block.keyword == "*FOUNDATION" ? ImportCondition::Kind::foundation :
+                                           ImportCondition::Kind::pressure;
         const bool number   = std::isdigit(static_cast<unsigned char>(
           line.words[0].empty() ? '0' : line.words[0][0]));
         load.condition.name = number ? "loaded" : line.words[0];
@@ -119,9 +150,8 @@ namespace mortise
       return;
     if (kind == "TRVEC")
       {
-        const auto   x = import_numbers(line, 3);
-        Tensor<1, 3> direction({x[0], x[1], x[2]});
-        direction /= direction.norm();
+        const Tensor<1, 3> direction =
+          direction_of(line, import_numbers(line, 3), 0);
         load.direction = {direction[0], direction[1], direction[2]};
       }
     ImportSteps::change(load.changes,
@@ -136,7 +166,7 @@ namespace mortise
                                     const std::size_t step)
   {
     const std::string kind  = upper(line.words[1]);
-    BodyForce        &force = body_forces[key_of(block, line)];
+    BodyForce        &force = load_of(body_forces, block, line, step);
     if (force.changes.empty())
       {
         auto elements = deck.find_elements(line.words[0], block.instance);
@@ -164,10 +194,14 @@ namespace mortise
           }
       }
     force.numbers = import_numbers(line, 3);
-    if (kind == "GRAV")
-      force.numbers.resize(3);
-    if (kind == "CENTRIF")
-      force.numbers.resize(6);
+    if (kind == "GRAV" || kind == "CENTRIF")
+      {
+        const unsigned int first = kind == "GRAV" ? 0 : 3;
+        const Tensor<1, 3> unit  = direction_of(line, force.numbers, first);
+        force.numbers.resize(first + 3);
+        for (unsigned int d = 0; d < 3; ++d)
+          force.numbers[first + d] = unit[d];
+      }
     ImportSteps::change(force.changes,
                         {step,
                          number_at(line, 2),
@@ -179,15 +213,20 @@ namespace mortise
                                       const std::size_t step)
   {
     if (replaces_all(block))
-      for (auto &component : nodal_forces)
-        for (auto &node : component)
-          end_load(node.second.changes, step);
+      {
+        for (auto &component : nodal_forces)
+          for (auto &node : component)
+            end_load(node.second.changes, step);
+        for (auto &reference : references)
+          for (auto &component : reference.second.load)
+            end_load(component, step);
+      }
     for (const InpLine &line : block.lines)
       {
         const auto   numbers = import_numbers(line, 1);
         const double dof     = numbers.empty() ? 0. : numbers[0];
         const auto   nodes   = deck.find_nodes(line.words[0], block.instance);
-        if (numbers.size() < 2 || dof < 1. || dof > 3. || nodes.empty())
+        if (numbers.size() < 2 || dof < 1. || dof > 6. || nodes.empty())
           {
             remarks.left_out(line.place,
                              "*CLOAD on " + in_quotes(line.words[0], '\'') +
@@ -195,27 +234,25 @@ namespace mortise
                                                 ", which is no force"));
             continue;
           }
+        const unsigned int c      = dof - 1.;
+        const ImportChange change = {step,
+                                     numbers[1],
+                                     upper(block.option("AMPLITUDE"))};
         for (const unsigned int node : nodes)
-          {
-            if (bodies.bodies_of_node[node].empty() ||
-                local_axes.count(node) > 0)
-              {
-                remarks.left_out(line.place,
-                                 "*CLOAD on a node " +
-                                   std::string(local_axes.count(node) > 0 ?
-                                                 "with *TRANSFORM" :
-                                                 "of no body"));
-                continue;
-              }
-            NodalForce &force =
-              nodal_forces[static_cast<unsigned int>(dof) - 1][node];
-            force.name  = nodes.size() > 1 ? line.words[0] : "loaded";
-            force.place = line.place;
-            ImportSteps::change(force.changes,
-                                {step,
-                                 numbers[1],
-                                 upper(block.option("AMPLITUDE"))});
-          }
+          if (const auto reference = references.find(node);
+              reference != references.end())
+            ImportSteps::change(reference->second.load[c], change);
+          else if (c >= 3 || bodies.bodies_of_node[node].empty())
+            remarks.left_out(line.place,
+                             c >= 3 ? "*CLOAD that is a moment of a node" :
+                                      "*CLOAD on a node of no body");
+          else
+            {
+              NodalForce &force = nodal_forces[c][node];
+              force.name        = nodes.size() > 1 ? line.words[0] : "loaded";
+              force.place       = line.place;
+              ImportSteps::change(force.changes, change);
+            }
       }
   }
 
@@ -296,14 +333,21 @@ namespace mortise
             condition.name = found->second.name;
           place = place.empty() ? found->second.place : place;
           const ImportHistory history = steps.history(found->second.changes);
-          force.force[d]              = force.force[d].plus(history);
-          Tensor<1, 3> unit;
-          unit[d]                   = 1.;
+          Tensor<1, 3>        unit;
+          unit[d] = 1.;
+          if (const auto local = local_axes.find(node);
+              local != local_axes.end())
+            unit = local->second.axes * unit;
           const Tensor<1, 3> lever  = deck.nodes[node] - force.centroid;
           const Tensor<1, 3> moment = cross_product_3d(lever, unit);
           for (unsigned int c = 0; c < 3; ++c)
-            if (moment[c] != 0.)
-              force.moment[c] = force.moment[c].plus(history.times(moment[c]));
+            {
+              if (unit[c] != 0.)
+                force.force[c] = force.force[c].plus(history.times(unit[c]));
+              if (moment[c] != 0.)
+                force.moment[c] =
+                  force.moment[c].plus(history.times(moment[c]));
+            }
           arm = std::max(arm, lever.norm());
           for (const auto &point : history.points)
             largest = std::max(largest, std::fabs(point.second));
@@ -413,9 +457,8 @@ namespace mortise
         else if (force.kind == "CENTRIF")
           {
             // density omega^2 times the vector from the axis
-            const Point<3> origin(x[0], x[1], x[2]);
-            Tensor<1, 3>   axis({x[3], x[4], x[5]});
-            axis /= axis.norm();
+            const Point<3>     origin(x[0], x[1], x[2]);
+            const Tensor<1, 3> axis({x[3], x[4], x[5]});
             const Tensor<2, 3> across =
               Tensor<2, 3>(unit_symmetric_tensor<3>()) -
               outer_product(axis, axis);

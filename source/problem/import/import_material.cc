@@ -48,10 +48,15 @@ namespace mortise
   }
 
   Tensor<2, 3>
-  axes_of(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
+  axes_of(const Tensor<1, 3> &a,
+          const Tensor<1, 3> &b,
+          const std::string  &place)
   {
+    Tensor<1, 3> z = cross_product_3d(a, b);
+    if (!(z.norm() > 1e-12 * a.norm() * b.norm()))
+      throw InputError("--import: the deck has in " + place +
+                       " axes by two points on a line through the origin");
     const Tensor<1, 3> x = a / a.norm();
-    Tensor<1, 3>       z = cross_product_3d(a, b);
     z /= z.norm();
     const Tensor<1, 3> y = cross_product_3d(z, x);
     Tensor<2, 3>       axes;
@@ -381,7 +386,7 @@ namespace mortise
       else if (unknown.count(block->keyword) > 0)
         remarks.left_out(block->place, block->keyword + " of " + name);
       else if (block->keyword == "*ORIENTATION")
-        orientations[upper(block->option("NAME"))] = block;
+        orientations[{block->instance, upper(block->option("NAME"))}] = block;
   }
 
   ImportMaterial
@@ -403,8 +408,15 @@ namespace mortise
   ImportMaterials::axes_text(const InpBlock &section,
                              ImportRemarks  &remarks) const
   {
-    Tensor<2, 3> axes = unit_symmetric_tensor<3>();
-    const auto found  = orientations.find(upper(section.option("ORIENTATION")));
+    Tensor<2, 3>      axes = unit_symmetric_tensor<3>();
+    const std::string name = upper(section.option("ORIENTATION"));
+    auto found = orientations.find({section.instance, name}); // of its part
+    if (found == orientations.end())
+      found = orientations.find({"", name});
+    if (found == orientations.end() && !name.empty())
+      throw InputError("--import: the deck has in " + section.place +
+                       " the orientation " + in_quotes(name, '\'') +
+                       ", which it does not define");
     if (found != orientations.end())
       {
         const InpBlock   &block  = *found->second;
@@ -418,7 +430,8 @@ namespace mortise
                            "points; the axes are those of the scene");
         else
           axes = axes_of(Tensor<1, 3>({x[0], x[1], x[2]}),
-                         Tensor<1, 3>({x[3], x[4], x[5]}));
+                         Tensor<1, 3>({x[3], x[4], x[5]}),
+                         block.place);
         // a further rotation about one of these axes
         const auto turn = block.lines.size() > 1 ?
                             import_numbers(block.lines[1]) :

@@ -38,7 +38,9 @@ namespace mortise
     const InpDeck                                       &deck;
     const bool                                           finite;
     std::map<std::string, std::vector<const InpBlock *>> blocks; ///< of each
-    std::map<std::string, const InpBlock *>              orientations;
+    /// By instance and name.
+    std::map<std::pair<std::string, std::string>, const InpBlock *>
+      orientations;
   };
 
   /// Angles by which axes are rotated about x, then y, then z, in degrees.
@@ -46,9 +48,19 @@ namespace mortise
   angles_text(const dealii::Tensor<2, 3> &rotation);
 
   /// The axes of *ORIENTATION or *TRANSFORM by the points a and b on the
-  /// local x axis and in the local x-y plane; columns.
+  /// local x axis and in the local x-y plane; columns. Throws InputError with
+  /// the @p place where these are on one line.
   dealii::Tensor<2, 3>
-  axes_of(const dealii::Tensor<1, 3> &a, const dealii::Tensor<1, 3> &b);
+  axes_of(const dealii::Tensor<1, 3> &a,
+          const dealii::Tensor<1, 3> &b,
+          const std::string          &place);
+
+  /// One of the columns.
+  inline dealii::Tensor<1, 3>
+  axis_of(const dealii::Tensor<2, 3> &axes, const unsigned int c)
+  {
+    return dealii::Tensor<1, 3>({axes[0][c], axes[1][c], axes[2][c]});
+  }
 
   /// The words of @p line as numbers; empty words are 0.
   std::vector<double>
