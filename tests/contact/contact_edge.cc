@@ -147,6 +147,22 @@ main(int argc, char *argv[])
               dealii::Utilities::MPI::sum(wrong, MPI_COMM_WORLD),
               0);
     }
+  // half way between a closed and an open one
+  NodePositions ends;
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    ends = {{Point<3>(0., 0., 0.), Point<3>(1., 0., 0.)}, {1, 1}};
+  for (const bool first : {false, true})
+    {
+      std::vector<ContactRecord> of_ends(ends.points.size());
+      if (!of_ends.empty())
+        of_ends[first ? 0 : 1].closed = true;
+      const ContactRecords both_kinds(ends, of_ends, {}, MPI_COMM_WORLD);
+      verdict("a closed one where two are equally near",
+              both_kinds.nearest({{Point<3>(0.5, 0., 0.)}, {1}})[0].closed ?
+                0. :
+                1.,
+              0.);
+    }
   const Strip fresh(0.02, MPI_COMM_WORLD, 3);
   const auto  found = known.nearest(fresh.positions);
   verdict("all of a surface that had none press: not so",
