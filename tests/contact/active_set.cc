@@ -171,7 +171,7 @@ main(int argc, char *argv[])
   set.start_from(std::vector<bool>(size, false));
   const auto closing =
     set.advance(std::vector<double>(size, 0.),
-                mine ? std::vector<double>{-1., -1e-12, 1e-12, 1., 0.} :
+                mine ? std::vector<double>{-1., -1e-12, 1e-12, 0., 0.} :
                        std::vector<double>(),
                 1.,
                 1e-10);
