@@ -166,4 +166,30 @@ main(int argc, char *argv[])
   verdict("one closes", std::fabs(double(change.closed) - 1.), 0.);
   verdict("two are undecided", std::fabs(double(change.undecided) - 2.), 0.);
   verdict("three are left", std::fabs(double(set.n_active()) - 3.), 0.);
+
+  // without a pressure what overlaps is the scale
+  set.start_from(std::vector<bool>(size, false));
+  const auto closing =
+    set.advance(std::vector<double>(size, 0.),
+                mine ? std::vector<double>{-1., -1e-12, 1e-12, 0., 0.} :
+                       std::vector<double>(),
+                1.,
+                1e-10);
+  verdict("one of the overlaps closes",
+          std::fabs(double(closing.closed) - 1.),
+          0.);
+
+  // a set in which another node alone has changed has not been there
+  for (unsigned int i = 0; i < 5; ++i)
+    {
+      set.start_from(std::vector<bool>(size, true));
+      std::vector<double> pressure(size, 1.);
+      if (mine)
+        pressure[i] = -1.;
+      const auto opening =
+        set.advance(pressure, std::vector<double>(size, 0.), 1., 1e-10);
+      verdict("it opens, and no set has come back",
+              std::fabs(double(opening.opened) - 1.) + (set.cycles() ? 1. : 0.),
+              0.);
+    }
 }

@@ -37,7 +37,7 @@ namespace
   };
 
   /// The least x of the multipliers that open, if the set is active up to x
-  /// = 0.8 and the true edge is @p edge.
+  /// = 0.8, so that it ends half a row farther, and the true edge is @p edge.
   double
   opened_from(const double h, const double edge)
   {
@@ -45,7 +45,7 @@ namespace
     std::vector<bool> active, turns;
     for (const Point<3> &position : strip.positions.points)
       {
-        const double s = 0.8 + h / 2. - position[0], d = 0.8 - edge;
+        const double s = 0.8 + h / 2. - position[0], d = 0.8 + h / 2. - edge;
         active.push_back(s > 0.);
         turns.push_back(s > 0. && std::sqrt(s) - d / 2. / std::sqrt(s) < 0.);
       }
@@ -86,11 +86,19 @@ main(int argc, char *argv[])
   for (const double h : {0.04, 0.02, 0.01})
     for (const double edge : {0.4, 0.6, 0.7})
       {
-        const double      from = opened_from(h, edge);
+        // wherever it is between rows
+        double too_far = -1., too_few = 0.;
+        for (unsigned int shift = 0; shift < 7; ++shift)
+          {
+            const double true_edge = edge + 0.3 * shift * h,
+                         from      = opened_from(h, true_edge);
+            too_far                = std::max(too_far, true_edge - from);
+            too_few                = std::max(too_few, (from - true_edge) / h);
+          }
         const std::string what =
           "rows of " + std::to_string(h) + ", edge at " + std::to_string(edge);
-        verdict(what + ": not too far", edge - from, 1e-9);
-        verdict(what + ": far enough, in rows", (from - edge) / h, 3.001);
+        verdict(what + ": not too far", too_far, 1e-9);
+        verdict(what + ": far enough, in rows", too_few, 3.001);
       }
   const Strip strip(0.02, MPI_COMM_WORLD);
   verdict("nothing pulls",
@@ -146,6 +154,22 @@ main(int argc, char *argv[])
                 ": not so",
               dealii::Utilities::MPI::sum(wrong, MPI_COMM_WORLD),
               0);
+    }
+  // half way between a closed and an open one
+  NodePositions ends;
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    ends = {{Point<3>(0., 0., 0.), Point<3>(1., 0., 0.)}, {1, 1}};
+  for (const bool first : {false, true})
+    {
+      std::vector<ContactRecord> of_ends(ends.points.size());
+      if (!of_ends.empty())
+        of_ends[first ? 0 : 1].closed = true;
+      const ContactRecords both_kinds(ends, of_ends, {}, MPI_COMM_WORLD);
+      verdict("a closed one where two are equally near",
+              both_kinds.nearest({{Point<3>(0.5, 0., 0.)}, {1}})[0].closed ?
+                0. :
+                1.,
+              0.);
     }
   const Strip fresh(0.02, MPI_COMM_WORLD, 3);
   const auto  found = known.nearest(fresh.positions);
