@@ -380,19 +380,24 @@ def tilted_bar():
 
 
 def couplings():
-    """The ends of two bars of 2 x 1 x 4, clamped at z = 0: one is turned by 0.01 about a point away from it, the other one pulled beside its centre."""
+    """The ends of three bars of 2 x 1 x 4, clamped at z = 0: one is turned by 0.01 about a point away from it, the others pulled beside their centres."""
     E, P, arm = 1000., 10., .5
     mesh = Mesh().block("C3D20", (2, 2, 4), box(-1, -.5, 0, 1, .5, 4), "TURNED").block("C3D20", (2, 2, 4), box(4, -.5, 0, 6, .5, 4), "PULLED")
-    one, two, n = mesh.node(1, 0, 4), mesh.node(6, 0, 4), len(mesh.nodes)
-    text = mesh.text() + "*NODE\n%d, 0., 0., 2.\n%d, %g, 0., 5.\n" % (n + 1, n + 2, 5 + arm) + probe(one, two) + nset("FIX", mesh.at(lambda x, y, z: near(z, 0)))
+    mesh.block("C3D20", (2, 2, 4), box(9, -.5, 0, 11, .5, 4), "RIGID")
+    one, two, three, n = mesh.node(1, 0, 4), mesh.node(6, 0, 4), mesh.node(11, 0, 4), len(mesh.nodes)
+    text = mesh.text() + "*NODE\n%d, 0., 0., 2.\n%d, %g, 0., 5.\n%d, %g, 0., 5.\n" % (n + 1, n + 2, 5 + arm, n + 3, 10 + arm)
+    text += probe(one, two, three) + nset("FIX", mesh.at(lambda x, y, z: near(z, 0))) + surface("PLATE", mesh.sides(lambda x, y, z: near(z, 4), "RIGID"))
     text += nset("HEAD", mesh.at(lambda x, y, z: near(z, 4) and x < 2)) + surface("FACE", mesh.sides(lambda x, y, z: near(z, 4), "PULLED"))
     text += surface("HEADFACE", mesh.sides(lambda x, y, z: near(z, 4), "TURNED"))
-    text += material("SOFT", "*ELASTIC", "%g, 0." % E) + section("TURNED", "SOFT") + section("PULLED", "SOFT") + "*BOUNDARY\nFIX, 1, 3\n"
+    text += material("SOFT", "*ELASTIC", "%g, 0." % E) + section("TURNED", "SOFT") + section("PULLED", "SOFT") + section("RIGID", "SOFT") + "*BOUNDARY\nFIX, 1, 3\n"
     text += "*COUPLING, REF NODE=%d, SURFACE=HEADFACE, CONSTRAINT NAME=C1\n*KINEMATIC\n1, 3\n*COUPLING, REF NODE=%d, SURFACE=FACE, CONSTRAINT NAME=C2\n*DISTRIBUTING\n1, 6\n" % (n + 1, n + 2)
-    text += step("*BOUNDARY\n%d, 1, 6, 0.\n%d, 5, 5, 0.01\n*CLOAD\n%d, 3, %g" % (n + 1, n + 1, n + 2, P))
+    text += "*COUPLING, REF NODE=%d, SURFACE=PLATE, CONSTRAINT NAME=C3\n*KINEMATIC\n1, 3\n" % (n + 3)
+    text += step("*BOUNDARY\n%d, 1, 6, 0.\n%d, 5, 5, 0.01\n*CLOAD\n%d, 3, %g\n%d, 3, %g" % (n + 1, n + 1, n + 2, P, n + 3, P))
     curvature = P * arm / (E * 8 / 12.)
     checks = [("node_%d" % one, 0, .02, 1e-6), ("node_%d" % one, 2, -.01, 1e-6)]
-    return Deck(text, checks + [("node_%d" % two, 0, -curvature * 8, 1e-6), ("node_%d" % two, 2, 4 * P / 2 / E + 4 * curvature, 1e-6)], told=("*DISTRIBUTING",))
+    for end in (two, three):
+        checks += [("node_%d" % end, 0, -curvature * 8, 1e-6), ("node_%d" % end, 2, 4 * P / 2 / E + 4 * curvature, 1e-6)]
+    return Deck(text, checks, told=("*DISTRIBUTING",))
 
 
 def bolt():

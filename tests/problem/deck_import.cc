@@ -103,10 +103,10 @@ SLAVE, MASTER
 *CLEARANCE, SLAVE=SLAVE, MASTER=MASTER, VALUE=0.05
 *MPC
 BEAM, 1, 2
-*RIGID BODY, NSET=TOP, REF NODE=99
+*RIGID BODY, NSET=11, REF NODE=99
 *COUPLING, REF NODE=99, SURFACE=ROUND, CONSTRAINT NAME=K
 *KINEMATIC
-1,3
+1,2
 *INITIAL CONDITIONS, TYPE=TEMPERATURE
 NALL, 20.
 *AMPLITUDE, NAME=RAMP
@@ -159,8 +159,8 @@ LOW, CENTRIF, 100., 0., 0., 0., 0., 0., 1.
       {"line 31: *ELEMENT, TYPE=B31",
        "line 62: *CREEP of B",
        "line 84: *MPC",
-       "line 86: *RIGID BODY",
-       "line 88: *COUPLING with *KINEMATIC, whose reference node is free in the components 3, 4, 5, 6",
+       "line 86: *RIGID BODY of '11', which has no outer faces",
+       "line 88: *COUPLING with *KINEMATIC, whose reference node is free in the components 4, 5, 6, and which does not move all components",
        "line 107: *DLOAD of the kind 'HP'",
        "line 111: *CLOAD on 1 node that is not",
        "line 124: CENTRIF on the body LOW, which has no *DENSITY",

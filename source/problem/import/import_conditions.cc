@@ -181,7 +181,8 @@ namespace mortise
                std::count(all.begin(), all.end(), condition) > 0 &&
                std::any_of(all.begin(), all.end(), [&](const auto c) {
                  return conditions[c].kind == ImportCondition::Kind::support ||
-                        conditions[c].kind == ImportCondition::Kind::motion;
+                        conditions[c].kind == ImportCondition::Kind::motion ||
+                        conditions[c].kind == ImportCondition::Kind::rigid_part;
                });
       });
   }
@@ -198,6 +199,13 @@ namespace mortise
     setting(const std::string &name, const std::string &value)
     {
       return "    set " + name + " = " + value + "\n";
+    }
+
+    std::string
+    point_text(const Point<3> &x)
+    {
+      return three({number_text(x[0]), number_text(x[1]), number_text(x[2])},
+                   ", ");
     }
 
     std::string
@@ -290,6 +298,7 @@ namespace mortise
         Tensor<2, 3>                 axes;
         std::string                  normal, motion, stiffness, pressure, lines;
         std::array<ImportHistory, 3> traction, force, moment;
+        const ImportCondition       *rigid = nullptr;
         for (const unsigned int c : bodies.faces[faces[0]].conditions)
           {
             const ImportCondition &condition = conditions[c];
@@ -311,10 +320,10 @@ namespace mortise
                   displacement = condition.displacement;
                   motion =
                     setting("Rotation", history_text(condition.traction)) +
-                    setting("Reference point",
-                            number_text(condition.reference[0]) + ", " +
-                              number_text(condition.reference[1]) + ", " +
-                              number_text(condition.reference[2]));
+                    setting("Reference point", point_text(condition.reference));
+                  break;
+                case ImportCondition::Kind::rigid_part:
+                  rigid = &condition;
                   break;
                 case ImportCondition::Kind::foundation:
                   stiffness += (stiffness.empty() ? "" : " + ") +
@@ -351,6 +360,25 @@ namespace mortise
                 default:
                   break;
               }
+          }
+        if (rigid != nullptr)
+          {
+            if (!normal.empty() || axes.norm() > 0. || !stiffness.empty() ||
+                displacement != free_components)
+              remarks.left_out("*BOUNDARY",
+                               "of the body " + bodies.bodies[body].name +
+                                 " at " + name +
+                                 ", which moves with a reference node");
+            normal.clear();
+            stiffness.clear();
+            axes         = {};
+            displacement = rigid->displacement;
+            motion       = setting("Coupling", "rigid") +
+                     setting("Reference point", point_text(rigid->reference));
+            if (rigid->rotation != free_components)
+              motion += setting("Rotation", three(rigid->rotation, "; "));
+            force  = sum_of(force, rigid->force.force);
+            moment = sum_of(moment, rigid->force.moment);
           }
         bool both = !normal.empty() && displacement != free_components;
         if (axes.norm() > 0.)

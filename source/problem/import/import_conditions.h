@@ -33,7 +33,8 @@ namespace mortise
     enum class Kind
     {
       support,
-      motion, ///< rigid, of a coupling
+      motion,     ///< rigid, of a coupling
+      rigid_part, ///< the same, of which forces decide a part
       foundation,
       pressure,
       traction,
@@ -47,10 +48,12 @@ namespace mortise
     unsigned int         component = 0; ///< of a support
     dealii::Tensor<2, 3> axes;  ///< of a support, by columns; zero: the scene's
     AffineHistory        value; ///< of a support, pressure or foundation
-    std::array<ImportHistory, 3> traction;     ///< of a motion: its rotation
-    std::array<std::string, 3>   displacement; ///< of a motion
-    dealii::Point<3>             reference;    ///< of a motion
-    ImportForce                  force;
+    std::array<ImportHistory, 3> traction; ///< of a motion: its rotation
+    /// Of a motion; of a rigid part - is free.
+    std::array<std::string, 3> displacement = free_components,
+                               rotation     = free_components;
+    dealii::Point<3> reference; ///< of both
+    ImportForce      force;
   };
 
   class ImportConditions
@@ -228,6 +231,11 @@ namespace mortise
                const Reference                 &reference,
                const dealii::Point<3>          &at,
                const std::string               &what);
+    void
+    add_rigid_part(const std::vector<unsigned int> &faces,
+                   const std::string               &name,
+                   const Reference                 &reference,
+                   const dealii::Point<3>          &at);
     void
     add_distributed(const std::vector<unsigned int> &faces,
                     const std::string               &name,

@@ -233,10 +233,14 @@ namespace mortise
       if (needed[c] && motion[c].empty())
         unknown += (unknown.empty() ? "" : ", ") + std::to_string(c + 1);
     if (!unknown.empty())
-      return remarks.left_out(
-        reference.place,
-        what + ", whose reference node is free in the components " + unknown +
-          ": a rigid face needs a motion that is given");
+      {
+        if (follows == std::array<bool, 3>{{true, true, true}})
+          return add_rigid_part(faces, name, reference, at);
+        return remarks.left_out(
+          reference.place,
+          what + ", whose reference node is free in the components " + unknown +
+            ", and which does not move all components of the face");
+      }
     ImportCondition condition;
     condition.name = name;
     bool turns     = false;
@@ -263,6 +267,35 @@ namespace mortise
         if (needed[3 + c])
           condition.traction[c] =
             steps.history(motion[3 + c]).times(180. / numbers::PI);
+      }
+    add(condition, faces);
+  }
+
+  /// Coupling = rigid: forces decide what is not given.
+  void
+  ImportConditions::add_rigid_part(const std::vector<unsigned int> &faces,
+                                   const std::string               &name,
+                                   const Reference                 &reference,
+                                   const Point<3>                  &at)
+  {
+    ImportCondition condition;
+    condition.kind      = ImportCondition::Kind::rigid_part;
+    condition.name      = name;
+    condition.reference = at;
+    const auto text     = [](const ImportHistory &history) {
+      return history.text();
+    };
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        const auto &moved  = reference.motion[c];
+        const auto &turned = reference.motion[3 + c];
+        if (!moved.empty())
+          condition.displacement[c] = text(steps.history(moved));
+        if (!turned.empty())
+          condition.rotation[c] =
+            text(steps.history(turned).times(180. / numbers::PI));
+        condition.force.force[c]  = steps.history(reference.load[c]);
+        condition.force.moment[c] = steps.history(reference.load[3 + c]);
       }
     add(condition, faces);
   }

@@ -154,6 +154,8 @@ namespace mortise
     {
       for (const InterfaceParameters &interface : parameters.interfaces)
         {
+          if (interface.slave.body >= parameters.bodies.size())
+            continue; // which is told
           const BodyParameters &body = parameters.bodies[interface.slave.body];
           std::string           what;
           if (is_rigid(body.material))
