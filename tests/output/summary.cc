@@ -102,7 +102,7 @@ namespace
     check_keys(
       "a step",
       step,
-      "step cycle bodies dofs interfaces solver equilibrium errors quantities");
+      "step cycle bodies dofs interfaces rigid_parts solver equilibrium errors quantities");
     check_keys("equilibrium", step["equilibrium"], "applied reactions sum");
     check_keys(
       "a body",
@@ -180,7 +180,7 @@ namespace
     const Json json = Json::parse(to_json(summary));
     check_keys("a step that failed before the solver",
                json["steps"][0],
-               "step cycle bodies dofs interfaces quantities");
+               "step cycle bodies dofs interfaces rigid_parts quantities");
     check_keys("dofs without interface",
                json["steps"][0]["dofs"],
                "displacement total");
