@@ -359,43 +359,50 @@ namespace mortise
     rhs += sum;
   }
 
+  namespace
+  {
+    /// Add of each multiplier the sum of what @p value gives by slave face, node
+    /// and direction.
+    template <typename Value>
+    void
+    add_by_node(const Coupling &coupling, const Value &value, Vector &rhs)
+    {
+      Vector sum = make_sums(1,
+                             coupling,
+                             rhs.locally_owned_elements(),
+                             rhs.get_mpi_communicator())[0];
+      for_each_part(coupling,
+                    [&](const unsigned int    s,
+                        const unsigned int    node,
+                        const Tensor<1, dim> &direction,
+                        const auto            index,
+                        const double          weight) {
+                      sum(index) += weight * value(s, node, direction);
+                    });
+      sum.compress(VectorOperation::add);
+      rhs += sum;
+    }
+  } // namespace
+
   void
   add_jump(const Coupling &coupling, const Tensor<1, dim> &jump, Vector &rhs)
   {
-    Vector sum = make_sums(1,
-                           coupling,
-                           rhs.locally_owned_elements(),
-                           rhs.get_mpi_communicator())[0];
-    for_each_part(coupling,
-                  [&](const unsigned int    s,
-                      const unsigned int    node,
-                      const Tensor<1, dim> &direction,
-                      const auto            index,
-                      const double          weight) {
-                    sum(index) +=
-                      weight * integral(coupling, s, node) * (jump * direction);
-                  });
-    sum.compress(VectorOperation::add);
-    rhs += sum;
+    add_by_node(
+      coupling,
+      [&](const auto s, const auto node, const Tensor<1, dim> &direction) {
+        return integral(coupling, s, node) * (jump * direction);
+      },
+      rhs);
   }
 
   void
   add_distances(const Coupling &coupling, Vector &rhs)
   {
-    Vector sum = make_sums(1,
-                           coupling,
-                           rhs.locally_owned_elements(),
-                           rhs.get_mpi_communicator())[0];
-    for_each_part(coupling,
-                  [&](const unsigned int    s,
-                      const unsigned int    node,
-                      const Tensor<1, dim> &direction,
-                      const auto            index,
-                      const double          weight) {
-                    sum(index) +=
-                      weight * opening(coupling, s, node, direction);
-                  });
-    sum.compress(VectorOperation::add);
-    rhs += sum;
+    add_by_node(
+      coupling,
+      [&](const auto s, const auto node, const Tensor<1, dim> &direction) {
+        return opening(coupling, s, node, direction);
+      },
+      rhs);
   }
 } // namespace mortise

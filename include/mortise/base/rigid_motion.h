@@ -4,13 +4,27 @@
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
+
+#include <deal.II/physics/transformations.h>
 
 #include <array>
 #include <cmath>
 
 namespace mortise
 {
+  /// The matrix of the rotation about the axis @p vector by its length, radians.
+  inline dealii::Tensor<2, 3>
+  rotation_by(const dealii::Tensor<1, 3> &vector)
+  {
+    const double angle = vector.norm();
+    return angle == 0. ?
+             dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()) :
+             dealii::Physics::Transformations::Rotations::rotation_matrix_3d(
+               dealii::Point<3>(vector / angle), angle);
+  }
+
   struct RigidMotion
   {
     /// The identity.

@@ -45,7 +45,7 @@ namespace mortise
     /// Newton's method did not converge. Linear solves are as loose as the next
     /// residual allows (Eisenstat, Walker 1996). The forces of pressures on
     /// deformed faces become part of the external ones of @p load, and so do
-    /// changes of the shortenings of unknowns. Collective.
+    /// changes of the global unknowns. Collective.
     /// @p data: of the time of @p load. @p contact: null, or that of the scene,
     /// without friction; each linear problem is then one of contact. Where
     /// interfaces follow the bodies it is made again with each pairing.

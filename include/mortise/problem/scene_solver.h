@@ -39,7 +39,7 @@ namespace mortise
     void
     resume(const SceneData &data, const SceneValues &values, State &state);
 
-    /// For @p load at the time of @p data, after @p last; shortenings of unknowns
+    /// For @p load at the time of @p data, after @p last; global unknowns
     /// become part of @p load.
     /// @p start, by body, may be empty. Collective; throws InputError.
     SolvedState

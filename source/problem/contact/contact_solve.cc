@@ -103,7 +103,7 @@ namespace mortise
     const Vector      applied = load->rhs.multiplier;
     const SolveReport result =
       unknowns.solve(x.displacement.size() > 0, *load, x);
-    // shortenings of unknowns become part of the load
+    // global unknowns become part of the load
     load->rhs.multiplier -= applied;
     of_load.multiplier += load->rhs.multiplier;
     load->rhs = of_load;

@@ -47,15 +47,19 @@ namespace mortise
   }
 
   void
-  GlobalUnknowns::set_lift(Unknown &unknown) const
+  GlobalUnknowns::set_displacements(Unknown &unknown) const
   {
     const unsigned int p = unknown.part;
-    if (parts[p].is_finite || unknown.at_nodes.size() == 0)
-      {
-        Unknown next       = lift(p, parts[p].change(at[p], unknown.direction));
-        unknown.prescribed = std::move(next.prescribed);
-        unknown.at_nodes   = next.at_nodes;
-      }
+    Unknown at_present   = lift(p, parts[p].change(at[p], unknown.direction));
+    unknown.prescribed   = std::move(at_present.prescribed);
+    unknown.at_nodes     = at_present.at_nodes;
+  }
+
+  void
+  GlobalUnknowns::set_lift(Unknown &unknown) const
+  {
+    if (parts[unknown.part].is_finite || unknown.at_nodes.size() == 0)
+      set_displacements(unknown);
     set_product(unknown);
     unknown.has_lift = true;
   }
@@ -178,13 +182,7 @@ namespace mortise
   {
     for (unsigned int j = first_motion; j < all.size(); ++j)
       if (parts[all[j].part].is_finite)
-        {
-          Unknown moved =
-            lift(all[j].part,
-                 parts[all[j].part].change(at[all[j].part], all[j].direction));
-          all[j].at_nodes   = moved.at_nodes;
-          all[j].prescribed = std::move(moved.prescribed);
-        }
+        set_displacements(all[j]);
     const std::vector<double> external       = work_of(at_nodes.external),
                               internal       = work_of(at_nodes.internal),
                               of_multipliers = work_of(at_nodes.of_multipliers);

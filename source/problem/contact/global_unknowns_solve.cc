@@ -187,6 +187,19 @@ namespace mortise
     return report;
   }
 
+  void
+  GlobalUnknowns::solve_again(SystemVector &rhs,
+                              SystemVector &x,
+                              SolveReport  &report)
+  {
+    const SolveReport again = solver.solve_from(rhs, x);
+    report.iterations += again.iterations;
+    report.solve_seconds += again.solve_seconds;
+    report.relative_residual = again.relative_residual;
+    report.attainable        = again.attainable;
+    report.converged         = again.converged;
+  }
+
   SolveReport
   GlobalUnknowns::solve(const bool goes_on, SceneLoad &load, SystemVector &x)
   {
@@ -223,12 +236,7 @@ namespace mortise
         for (unsigned int j = 0; j < all.size(); ++j)
           if (forces[j])
             change(j, d(j), load, &x);
-        const SolveReport again = solver.solve_from(load.rhs, x);
-        report.iterations += again.iterations;
-        report.solve_seconds += again.solve_seconds;
-        report.relative_residual = again.relative_residual;
-        report.attainable        = again.attainable;
-        report.converged         = again.converged;
+        solve_again(load.rhs, x, report);
       }
     dealii::Vector<double> lacks = missing(x);
     if (const double pressure = take_pressure(lacks); pressure != 0.)
@@ -261,11 +269,6 @@ namespace mortise
         for (const auto &[dof, value] : all[j].prescribed)
           load.prescribed[dof] += d(j) * value;
       }
-    const SolveReport again = solver.solve_from(load.rhs, z);
-    report.iterations += again.iterations;
-    report.solve_seconds += again.solve_seconds;
-    report.relative_residual = again.relative_residual;
-    report.attainable        = again.attainable;
-    report.converged         = again.converged;
+    solve_again(load.rhs, z, report);
   }
 } // namespace mortise

@@ -1,10 +1,9 @@
 // See periodic_cell.h, and InterfaceParameters::placement().
 #include <deal.II/lac/lapack_full_matrix.h>
 
-#include <deal.II/physics/transformations.h>
-
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/base/rigid_motion.h>
 #include <mortise/problem/input/periodic_cell.h>
 
 #include <algorithm>
@@ -115,12 +114,10 @@ namespace mortise
       result.translation = vector_of(*translation);
     if (periodic == Periodicity::rotation)
       {
-        const Tensor<1, 3> angle  = vector_of(*rotation),
-                           centre = vector_of(
-                             reference_point.value_or(std::array<double, 3>{}));
+        const Tensor<1, 3> centre =
+          vector_of(reference_point.value_or(std::array<double, 3>{}));
         result.rotation =
-          Physics::Transformations::Rotations::rotation_matrix_3d(
-            Point<3>(angle / angle.norm()), angle.norm() * numbers::PI / 180.);
+          rotation_by(numbers::PI / 180. * vector_of(*rotation));
         result.translation = centre - result.rotation * centre;
       }
     return result;

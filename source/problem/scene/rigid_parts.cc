@@ -162,11 +162,7 @@ namespace mortise
     const auto             add = [&](const std::string                     &name,
                          const std::vector<types::boundary_id> &boundaries) {
       result.push_back({name, body.index, boundaries, extent(body)});
-      result.back().is_finite = std::any_of(parameters.bodies.begin(),
-                                            parameters.bodies.end(),
-                                            [](const BodyParameters &any) {
-                                              return is_finite(any.material);
-                                            });
+      result.back().is_finite = have_finite_strain(parameters);
     };
     const bool is_whole = is_rigid(given.material);
     if (is_whole)

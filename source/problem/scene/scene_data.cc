@@ -1,5 +1,3 @@
-#include <deal.II/physics/transformations.h>
-
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/base/rigid_motion.h>
@@ -16,6 +14,16 @@ namespace mortise
 {
   using namespace dealii;
 
+  bool
+  have_finite_strain(const Parameters &parameters)
+  {
+    return std::any_of(parameters.bodies.begin(),
+                       parameters.bodies.end(),
+                       [](const BodyParameters &body) {
+                         return is_finite(body.material);
+                       });
+  }
+
   std::vector<Material>
   materials(const Parameters &parameters)
   {
@@ -31,11 +39,7 @@ namespace mortise
       if (!is_rigid(parameters.bodies[b].material))
         softest = std::min(softest.value_or(result[b].softest_modulus()),
                            result[b].softest_modulus());
-    const bool turns_far = std::any_of(parameters.bodies.begin(),
-                                       parameters.bodies.end(),
-                                       [](const BodyParameters &body) {
-                                         return is_finite(body.material);
-                                       });
+    const bool turns_far = have_finite_strain(parameters);
     for (unsigned int b = 0; softest && b < result.size(); ++b)
       if (is_rigid(parameters.bodies[b].material))
         {
@@ -380,9 +384,7 @@ namespace mortise
         return cross_product_3d(angle, x - centre);
       };
     const Tensor<2, dim> change =
-      Physics::Transformations::Rotations::rotation_matrix_3d(
-        Point<dim>(angle / angle.norm()), angle.norm()) -
-      unit_symmetric_tensor<dim>();
+      rotation_by(angle) - unit_symmetric_tensor<dim>();
     return
       [change, centre](const Point<dim> &x) { return change * (x - centre); };
   }

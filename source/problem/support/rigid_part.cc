@@ -1,5 +1,6 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/rigid_motion.h>
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/problem/support/rigid_part.h>
 
@@ -44,16 +45,6 @@ namespace mortise
       return Tensor<2, dim>(unit_symmetric_tensor<dim>()) + a * W + b * W * W;
     }
 
-    Tensor<2, dim>
-    rotation_matrix(const Tensor<1, dim> &w)
-    {
-      const double angle = w.norm(), half = std::sin(angle / 2.);
-      return angle < 1e-8 ? polynomial(w, 1., 0.5) :
-                            polynomial(w,
-                                       std::sin(angle) / angle,
-                                       2. * half * half / (angle * angle));
-    }
-
     /// T.
     Tensor<2, dim>
     left_jacobian(const Tensor<1, dim> &w)
@@ -72,9 +63,9 @@ namespace mortise
   {
     const Tensor<1, dim> w = rotation_vector(motion, where);
     return {translation(motion),
-            is_finite ? rotation_matrix(w) -
-                          Tensor<2, dim>(unit_symmetric_tensor<dim>()) :
-                        cross(w)};
+            is_finite ?
+              rotation_by(w) - Tensor<2, dim>(unit_symmetric_tensor<dim>()) :
+              cross(w)};
   }
 
   AffineField
@@ -89,7 +80,7 @@ namespace mortise
     if (rotation != nullptr)
       *rotation = turn;
     return {translation(direction),
-            is_finite ? cross(turn) * rotation_matrix(w) : cross(turn)};
+            is_finite ? cross(turn) * rotation_by(w) : cross(turn)};
   }
 
   double

@@ -34,7 +34,7 @@ namespace mortise
                 GlobalUnknowns                      &unknowns,
                 const std::optional<ContactRecords> &known);
 
-    /// Solve for @p load, that of @p data, of which shortenings of unknowns
+    /// Solve for @p load, that of @p data, of which global unknowns
     /// become a part. The first set is extrapolated from the last steps; in the
     /// first step it is that of the constructor, or the closed gaps of the
     /// undeformed meshes; all nodes if it leaves a rigid motion free. Before

@@ -1,6 +1,7 @@
 // Unknowns of the whole scene: the shortenings of ties with a given normal
-// force (bolt pretension), each a part of the offset of its interface, and the
-// motions of rigid parts, prescribed displacements that follow from
+// force (bolt pretension), each a part of the offset of its interface; the
+// components of the mean strain of a periodic cell whose mean stress is given;
+// and the motions of rigid parts, prescribed displacements that follow from
 // equilibrium.
 //
 //     [  A    -w ] [ x ]   [ b ]
@@ -60,10 +61,6 @@ namespace mortise
     {
       return at;
     }
-
-    /// By interface; zero without a preload.
-    std::vector<double>
-    shortenings_by_interface() const;
 
     /// Indices of the preloaded interfaces.
     const std::vector<unsigned int> &
@@ -130,8 +127,7 @@ namespace mortise
 
     /// The largest force that @p x lacks, relative to the largest given one; of
     /// motions to the forces there are, or to those that belong to the root of
-    /// an
-    /// energy @p reference. Collective.
+    /// an energy @p reference. Collective.
     double
     lack(const SystemVector &x, double reference) const;
 
@@ -230,6 +226,9 @@ namespace mortise
     /// w of a motion with the present system.
     void
     set_product(Unknown &unknown) const;
+    /// R of a motion where the part is. Collective.
+    void
+    set_displacements(Unknown &unknown) const;
     /// R and w of a motion, where the part is, with the present system.
     void
     set_lift(Unknown &unknown) const;
@@ -262,6 +261,10 @@ namespace mortise
     /// then add the contribution of the unknowns.
     SolveReport
     solve_other_loads(const SceneLoad &load, SystemVector &x);
+    /// Go on from @p x to the solution for @p rhs, of which @p report tells then,
+    /// too.
+    void
+    solve_again(SystemVector &rhs, SystemVector &x, SolveReport &report);
     /// The d of the part d w of the constraint residual @p opening. Collective.
     double
     part_of_opening(unsigned int j, const Vector &opening) const;

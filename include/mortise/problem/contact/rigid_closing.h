@@ -33,7 +33,8 @@ namespace mortise
                 const SceneLoad      &load,
                 const FreeMotions    &free);
 
-  /// Work of the loads, with that of given forces of unknowns, on a rigid
+  /// Work of the loads, with that of given forces on global unknowns, on a
+  /// rigid
   /// @p motion. Collective.
   double
   work_of_loads(const Discretisation &discretisation,

@@ -21,6 +21,10 @@ namespace mortise
   std::vector<Material>
   materials(const Parameters &parameters);
 
+  /// Has any body a law of finite strain, so that rigid ones may turn far?
+  bool
+  have_finite_strain(const Parameters &parameters);
+
   /// Are there loads, prescribed displacements, offsets or temperatures at any
   /// time? Penetration of meshes does not count.
   bool

@@ -64,8 +64,7 @@ namespace mortise
   };
 
   /// Of the prescribed displacements of one body, or a piece of it, with what
-  /// is
-  /// prescribed of the rigid ones of @p parts; pieces are taken to be held by
+  /// is prescribed of the rigid ones of @p parts; pieces are taken to be held by
   /// these. Collective.
   Support
   support_of(const Body                            &body,
